@@ -1,0 +1,13 @@
+# Warnings for the project's own targets. Libraries from the system are included as SYSTEM and stay silent.
+add_library(duolux_warnings INTERFACE)
+target_compile_options(duolux_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
+  -Wdouble-promotion -Wimplicit-fallthrough $<$<BOOL:${DUOLUX_WERROR}>:-Werror>)
+
+# duolux_library(NAME SOURCES ... LINK ...): one library per folder of host/, includes are relative to the root.
+function(duolux_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK} duolux_warnings)
+endfunction()

@@ -1,0 +1,58 @@
+#include "host/base/file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "host/base/error.h"
+
+namespace duolux {
+
+std::string readFile(const std::filesystem::path& path) {
+    std::error_code ec;
+    if (std::filesystem::is_directory(path, ec)) {
+        throw InputError(path.string(), "", "is a directory", "expected a file");
+    }
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError(path.string(), "", fmt::format("cannot open: {}", std::strerror(errno)), "");
+    std::string bytes;
+    in.seekg(0, std::ios::end);
+    const std::streamoff size = in.tellg();
+    in.seekg(0);
+    if (size > 0) {
+        bytes.resize(static_cast<std::size_t>(size));
+        in.read(bytes.data(), size);
+        bytes.resize(static_cast<std::size_t>(in.gcount()));
+    }
+    if (in.bad()) throw InputError(path.string(), "", "cannot read to the end", "");
+    return bytes;
+}
+
+void writeFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(const std::filesystem::path&)>& write) {
+    // The extension is kept: some writers choose the format by it.
+    std::filesystem::path temporary = path;
+    temporary.replace_filename(
+        fmt::format(".{}.{}{}", path.stem().string(), ::getpid(), path.extension().string()));
+    std::error_code ec;
+    try {
+        write(temporary);
+        std::filesystem::rename(temporary, path);
+    } catch (const Error&) {
+        std::filesystem::remove(temporary, ec);
+        throw;
+    } catch (const std::filesystem::filesystem_error& e) {
+        std::filesystem::remove(temporary, ec);
+        throw MachineError(fmt::format("{}: cannot write: {}", path.string(), e.code().message()));
+    } catch (const std::exception& e) {
+        std::filesystem::remove(temporary, ec);
+        throw MachineError(fmt::format("{}: cannot write: {}", path.string(), e.what()));
+    }
+}
+
+}  // namespace duolux

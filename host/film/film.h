@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "host/film/image.h"
+
+namespace duolux {
+
+/// Accumulates radiance exactly: every sample is rounded once to a multiple of `quantum` (on the device), and sums are
+/// 64-bit integers. Integer addition is associative, so the image is the same bits however the work was split.
+class Film {
+  public:
+    /// Sums of one pixel, in quanta.
+    struct PixelSum {
+        std::int64_t invisible[3];
+        std::int64_t visible[3];
+    };
+
+    /// `quantum`: radiance of one unit, a power of two > 0.
+    Film(std::uint32_t width, std::uint32_t height, float quantum);
+
+    std::uint32_t width() const { return width_; }
+    std::uint32_t height() const { return height_; }
+    float quantum() const { return quantum_; }
+
+    /// Adds sums of `samples` samples each to the pixels listed (indices row-major from the top left).
+    /// Overflow saturates, and overflowed() tells.
+    void add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples);
+
+    bool overflowed() const { return overflowed_; }
+    std::uint64_t totalSamples() const;
+    std::uint32_t samplesOf(std::uint32_t pixel) const { return samples_[pixel]; }
+    std::span<const PixelSum> sums() const { return sums_; }
+
+    /// Mean radiance per pixel; black where no sample has been taken.
+    RadianceImage resolve() const;
+
+  private:
+    std::uint32_t width_, height_;
+    float quantum_;
+    bool overflowed_ = false;
+    std::vector<PixelSum> sums_;
+    std::vector<std::uint32_t> samples_;
+};
+
+}  // namespace duolux

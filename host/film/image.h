@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace duolux {
+
+/// Vector-valued radiance per pixel, linear, scene-referred; rows from the top.
+struct RadianceImage {
+    std::uint32_t width = 0, height = 0;
+    std::vector<glm::vec3> invisible, visible;  ///< width * height each
+
+    /// d . L (paper, eq. 8).
+    std::vector<glm::vec3> displayed(glm::vec2 d) const;
+};
+
+struct ImageOptions {
+    glm::vec2 display{0.0f, 1.0f};
+    float exposure = 0.0f;  ///< stops; PNG only
+    std::vector<std::pair<std::string, std::string>> metadata;  ///< EXR and PNG text attributes
+};
+
+/// True if the extension is one that writeImage knows: .exr .png .pfm (any case).
+bool isImagePath(const std::filesystem::path& path);
+
+/// Writes by extension, atomically. EXR: float R G B (displayed), invisible.R/G/B, visible.R/G/B.
+/// PNG: 8 bit sRGB after exposure, clamped. PFM: float RGB (displayed). Throws MachineError.
+void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options);
+
+/// Reads an EXR written by writeImage, or a PFM or PNG (then as the visible component; PNG decoded from sRGB to
+/// linear). Throws InputError.
+RadianceImage readImage(const std::filesystem::path& path);
+
+}  // namespace duolux

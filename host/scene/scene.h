@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/scene/reflectance.h"
+
+namespace duolux {
+
+enum class Sides : std::uint8_t { kFront, kBoth };
+
+/// Radiance that a surface emits, in W sr^-1 m^-2 (scene units), components >= 0 (paper, eq. 9).
+struct Emission {
+    glm::vec3 invisible{0.0f};
+    glm::vec3 visible{0.0f};
+    Sides sides = Sides::kFront;
+
+    bool any() const { return glm::any(glm::greaterThan(invisible + visible, glm::vec3(0.0f))); }
+};
+
+/// f_opaque and what the surface emits. Today's BSDF is diffuse: f_opaque = diffuse / pi.
+struct Material {
+    std::string name;
+    glm::vec3 diffuse{0.8f};           ///< albedo per channel, 0..1
+    Sides sides = Sides::kBoth;        ///< kFront: f_opaque acts only on the side the winding makes the front
+    Emission emission;
+    std::optional<Reflectance> reflectance;  ///< overrides the scene's reflectance if set
+};
+
+/// Triangles in world space. Counter-clockwise winding, seen from the front.
+struct Geometry {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> triangles;        ///< indices into positions
+    std::vector<std::uint32_t> materials;     ///< per triangle, index into Scene::materials
+    std::vector<glm::vec3> normals;           ///< unit shading normals; empty if no triangle has them
+    std::vector<glm::uvec3> normalIndices;    ///< per triangle; kNoNormal in .x: flat. Empty if normals is empty
+
+    static constexpr std::uint32_t kNoNormal = 0xffffffffu;
+};
+
+/// Pinhole camera. Image right is (target - position) x up.
+struct Camera {
+    glm::vec3 position{0.0f, 0.0f, 1.0f};
+    glm::vec3 target{0.0f};
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
+    float vfov = 40.0f;  ///< full vertical angle in degrees, in (0, 180)
+};
+
+enum class Sampler : std::uint8_t { kSobol, kIndependent };
+
+struct RenderSettings {
+    std::uint32_t width = 512, height = 512;  ///< pixels, 1..16384
+    std::uint32_t spp = 64;                   ///< samples per pixel, 1..2^24
+    std::uint32_t bounces = 16;               ///< largest number of scattering events on a path, 0..65535
+    std::uint32_t seed = 1;
+    Sampler sampler = Sampler::kSobol;
+};
+
+/// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera vectors.
+struct Scene {
+    std::filesystem::path source;   ///< the file that was loaded
+    std::string hash;               ///< 16 hex digits over everything the image depends on but RenderSettings
+    Camera camera;
+    RenderSettings render;
+    glm::vec2 display{0.0f, 1.0f};  ///< the row d of eq. 8; the displayed radiance is d . L
+    Reflectance reflectance;        ///< scene-wide
+    std::vector<Material> materials;
+    Geometry geometry;
+    std::vector<std::string> warnings;  ///< for the user: default light used, missing MTL, degenerate triangles ...
+
+    const Reflectance& reflectanceOf(const Material& material) const {
+        return material.reflectance ? *material.reflectance : reflectance;
+    }
+};
+
+/// Axis-aligned bounds of all referenced vertices.
+struct Bounds {
+    glm::vec3 lower, upper;
+};
+Bounds boundsOf(const Geometry& geometry);
+
+}  // namespace duolux
