@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "host/app/commands.h"
+#include "host/base/error.h"
+#include "host/base/version.h"
+
+namespace {
+
+int report(const char* line, duolux::ExitStatus status) {
+    fmt::print(stderr, "duolux: {}\n", line);
+    return static_cast<int>(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "Duolux renders vector-valued light (invisible, visible) through matrix-valued reflectance:\n"
+        "local, global, shadowless and one-bounce illumination, and everything between, by one path tracer.",
+        "duolux"};
+    app.set_version_flag("--version", fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
+    app.require_subcommand(1);
+    duolux::addRenderCommand(app);
+    duolux::addDevicesCommand(app);
+    duolux::addInfoCommand(app);
+    duolux::addMakeSceneCommand(app);
+    duolux::addSheetCommand(app);
+    try {
+        app.parse(argc, argv);
+        return static_cast<int>(duolux::ExitStatus::kDone);
+    } catch (const CLI::Success& e) {
+        return app.exit(e);  // --help, --version
+    } catch (const CLI::ParseError& e) {
+        return report(fmt::format("{} (see 'duolux --help')", e.what()).c_str(), duolux::ExitStatus::kUsage);
+    } catch (const duolux::Error& e) {
+        return report(e.what(), e.status());
+    } catch (const std::bad_alloc&) {
+        return report("out of memory", duolux::ExitStatus::kMachineFailed);
+    } catch (const std::exception& e) {
+        return report(e.what(), duolux::ExitStatus::kMachineFailed);
+    }
+}
