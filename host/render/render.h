@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "host/film/film.h"
+#include "host/scene/scene.h"
+#include "host/vk/device.h"
+
+namespace duolux {
+
+/// Where a render stands; passed to RenderControl::onProgress after every dispatch.
+struct RenderProgress {
+    std::uint64_t samplesDone = 0, samplesTotal = 0;  ///< over all pixels
+    double seconds = 0.0;                             ///< since the first dispatch
+};
+
+struct RenderControl {
+    /// Called after every dispatch from the rendering thread; returning false stops the render cleanly.
+    std::function<bool(const RenderProgress&)> onProgress;
+    /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the same.
+    std::optional<double> timeLimit;
+    /// Largest number of samples of one pixel in one dispatch, and of pixels in one dispatch; 0: chosen by measured
+    /// time. Neither changes a bit of the image.
+    std::uint32_t maxSamplesPerDispatch = 0;
+    std::uint32_t maxPixelsPerDispatch = 0;
+};
+
+struct RenderStatistics {
+    double buildSeconds = 0.0;      ///< BVH
+    double uploadSeconds = 0.0;
+    double pipelineSeconds = 0.0;   ///< creating the pipeline (and compiling, on drivers that do it then)
+    double renderSeconds = 0.0;     ///< wall, first dispatch to last
+    double deviceSeconds = 0.0;     ///< by timestamps, summed over dispatches
+    std::uint64_t dispatches = 0;
+    std::uint64_t samples = 0;      ///< pixel samples taken
+    std::uint64_t cameraRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
+    std::uint64_t nonFiniteSamples = 0;   ///< dropped; 0 unless something is wrong
+    std::uint64_t deviceBytes = 0;        ///< peak
+    /// Radiance (mean over pixels and channels, displayed) that the last allowed bounce added, and the one before it.
+    double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0, meanRadiance = 0.0;
+    std::uint32_t effectiveBounces = 0;   ///< scattering events that can contribute: at most the scene's `bounces`
+    bool stopped = false;                 ///< ended before all samples were taken
+
+    /// The bounce limit cut off a series whose terms were not yet negligible (more than 1 % of the image).
+    bool stillGrowing() const;
+};
+
+struct RenderOutput {
+    Film film;
+    RenderStatistics statistics;
+};
+
+/// Path-traces the scene. Same scene, settings, seed and device give the same bits.
+/// Throws MachineError naming the stage and the driver if the device fails.
+RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
+
+}  // namespace duolux

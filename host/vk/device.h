@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace duolux {
+
+enum class DeviceKind : std::uint8_t { kCpu, kGpu };
+
+/// What `duolux devices` shows of one physical device.
+struct DeviceInfo {
+    std::uint32_t index = 0;     ///< in the loader's order
+    std::string name;
+    std::string driver;          ///< name and version, for example "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+    DeviceKind kind = DeviceKind::kCpu;
+    std::uint32_t apiVersion = 0;
+    std::uint32_t subgroupSize = 0;
+    std::uint64_t maxStorageBufferRange = 0;  ///< bytes
+    std::uint64_t maxTexelBufferElements = 0;
+    std::uint64_t memoryBytes = 0;            ///< of the largest device-local heap
+    std::string unusable;        ///< empty, or which required feature is missing
+};
+
+/// All physical devices, usable or not. Throws MachineError if there is no Vulkan loader or driver.
+std::vector<DeviceInfo> listDevices();
+
+/// The device chosen by `selector`: "" (a usable GPU if there is one, else the software driver), "cpu", "gpu", an
+/// index, or a part of a name (any case). Throws UsageError naming what is there if nothing matches.
+const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::string_view selector);
+
+enum class Validation : std::uint8_t {
+    kOff,
+    kOn  ///< core and synchronization validation; throws MachineError if the layer is not installed
+};
+
+/// A logical device with one compute queue.
+class Device {
+  public:
+    explicit Device(std::string_view selector = "", Validation validation = Validation::kOff);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceInfo& info() const { return info_; }
+    const vk::raii::Device& handle() const { return device_; }
+    const vk::raii::PhysicalDevice& physical() const { return physical_; }
+    const vk::raii::Queue& queue() const { return queue_; }
+    std::uint32_t queueFamily() const { return queueFamily_; }
+    double timestampPeriod() const { return timestampPeriod_; }  ///< nanoseconds per tick; 0: no timestamps
+
+    /// Warnings and errors from the validation layer since creation (empty unless Validation::kOn).
+    std::vector<std::string> validationMessages() const;
+
+  private:
+    struct MessageLog;
+    std::unique_ptr<MessageLog> log_;
+    vk::raii::Context context_;
+    vk::raii::Instance instance_;
+    vk::raii::DebugUtilsMessengerEXT messenger_;
+    DeviceInfo info_;
+    vk::raii::PhysicalDevice physical_;
+    vk::raii::Device device_;
+    vk::raii::Queue queue_;
+    std::uint32_t queueFamily_ = 0;
+    double timestampPeriod_ = 0.0;
+};
+
+}  // namespace duolux
