@@ -1,0 +1,108 @@
+#include "host/bvh/collapse.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "shaders/shared/bvh_layout.h"
+
+namespace duolux {
+
+CollapsePlan::CollapsePlan(const BinaryBvh& bvh) : bvh_(bvh), recordOf_(bvh.nodes.size()) {
+    std::uint32_t inner = 0;
+    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
+        recordOf_[i] = bvh.nodes[i].count > 1 ? inner++ : 0;
+    records_.resize(inner);
+    // Children come after their parent, so backwards is bottom-up.
+    for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
+        if (bvh.nodes[i].count > 1) compute(static_cast<std::uint32_t>(i));
+    }
+    const float area = bvh.nodes[0].bounds.halfArea();
+    if (area > 0.0f) sahCost_ = static_cast<double>(cost(0, 1)) / static_cast<double>(area);
+}
+
+float CollapsePlan::cost(std::uint32_t node, int trees) const {
+    const BinaryBvh::Node& n = bvh_.nodes[node];
+    if (n.count == 1) return n.bounds.halfArea() * kTriangleCost;
+    return records_[recordOf_[node]].cost[static_cast<std::size_t>(trees - 1)];
+}
+
+void CollapsePlan::compute(std::uint32_t node) {
+    const BinaryBvh::Node& n = bvh_.nodes[node];
+    Record& record = records_[recordOf_[node]];
+    const std::uint32_t left = node + 1;
+    const std::uint32_t right = n.right;
+    float leftCost[7];
+    float rightCost[7];
+    for (int i = 0; i < 7; ++i) {
+        leftCost[i] = cost(left, i + 1);
+        rightCost[i] = cost(right, i + 1);
+    }
+    // Distributing `trees` trees over the two children.
+    auto distribute = [&](int trees, std::uint8_t& split) {
+        float best = std::numeric_limits<float>::max();
+        for (int k = 1; k < trees; ++k) {
+            if (k > 7 || trees - k > 7) continue;
+            const float c = leftCost[k - 1] + rightCost[trees - k - 1];
+            if (c < best) {
+                best = c;
+                split = static_cast<std::uint8_t>(k);
+            }
+        }
+        return best;
+    };
+    const float area = n.bounds.halfArea();
+    const float innerCost = distribute(8, record.split[7]) + area;
+    const float leafCost = n.count <= shared::kMaxLeafTriangles
+                               ? area * kTriangleCost * static_cast<float>(n.count)
+                               : std::numeric_limits<float>::max();
+    record.split[0] = leafCost <= innerCost ? kLeaf : kInner;
+    record.cost[0] = std::min(leafCost, innerCost);
+    for (int i = 1; i < 7; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        const float c = distribute(i + 1, record.split[index]);
+        if (c < record.cost[index - 1]) {
+            record.cost[index] = c;
+        } else {
+            record.cost[index] = record.cost[index - 1];
+            record.split[index] = 0;
+        }
+    }
+}
+
+void CollapsePlan::collect(std::uint32_t node, int trees, Children& children) const {
+    const BinaryBvh::Node& n = bvh_.nodes[node];
+    if (n.count > 1) {
+        const Record& record = records_[recordOf_[node]];
+        while (trees > 1 && record.split[static_cast<std::size_t>(trees - 1)] == 0)
+            --trees;
+        if (trees > 1) {
+            const int toLeft = record.split[static_cast<std::size_t>(trees - 1)];
+            collect(node + 1, toLeft, children);
+            collect(n.right, trees - toLeft, children);
+            return;
+        }
+        children.leaf[children.count] = record.split[0] == kLeaf;
+    } else {
+        children.leaf[children.count] = true;
+    }
+    assert(children.count < 8);
+    children.node[children.count++] = node;
+}
+
+CollapsePlan::Children CollapsePlan::childrenOf(std::uint32_t binaryNode) const {
+    Children children;
+    const BinaryBvh::Node& n = bvh_.nodes[binaryNode];
+    if (n.count == 1) {  // a tree of one triangle: a root with one leaf
+        children.node[0] = binaryNode;
+        children.leaf[0] = true;
+        children.count = 1;
+        return children;
+    }
+    const Record& record = records_[recordOf_[binaryNode]];
+    const int toLeft = record.split[7];
+    collect(binaryNode + 1, toLeft, children);
+    collect(n.right, 8 - toLeft, children);
+    return children;
+}
+
+}  // namespace duolux

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host/bvh/binary_bvh.h"
+
+namespace duolux {
+
+/// Which nodes of a binary tree become the nodes and leaves of an 8-wide one: the choice with the least SAH
+/// cost, by dynamic programming (Ylitie, Karras, Laine 2017, section 3.1).
+class CollapsePlan {
+  public:
+    /// Cost of one triangle test in units of one node visit.
+    static constexpr float kTriangleCost = 0.3f;
+
+    explicit CollapsePlan(const BinaryBvh& bvh);
+
+    /// What a wide node made of `binaryNode` has as children.
+    struct Children {
+        std::array<std::uint32_t, 8> node{};
+        std::array<bool, 8> leaf{};  ///< else an inner node
+        std::size_t count = 0;
+    };
+    Children childrenOf(std::uint32_t binaryNode) const;
+
+    double sahCost() const { return sahCost_; }
+
+  private:
+    /// The best forest of at most i + 1 subtrees that covers a binary node. One record per inner binary node.
+    struct Record {
+        std::array<float, 7> cost;
+        std::array<std::uint8_t, 8> split;  ///< [i], i >= 1: trees given to the left child (0: use i - 1
+                                            ///< trees); [0]: kLeaf or kInner; [7]: the split of 8 trees
+    };
+    static constexpr std::uint8_t kLeaf = 1, kInner = 0;
+
+    float cost(std::uint32_t node, int trees) const;
+    void compute(std::uint32_t node);
+    void collect(std::uint32_t node, int trees, Children& children) const;
+
+    const BinaryBvh& bvh_;
+    std::vector<std::uint32_t> recordOf_;  // inner nodes are numbered in order
+    std::vector<Record> records_;
+    double sahCost_ = 0.0;
+};
+
+}  // namespace duolux
