@@ -1,0 +1,134 @@
+#include <OpenEXR/Iex.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "host/base/error.h"
+#include "host/film/codec.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr const char* kDisplayedNames[3] = {"R", "G", "B"};
+constexpr const char* kInvisibleNames[3] = {"invisible.R", "invisible.G", "invisible.B"};
+constexpr const char* kVisibleNames[3] = {"visible.R", "visible.G", "visible.B"};
+
+/// A file in memory, so that every failure to write is seen by the one function that writes files.
+class MemoryOutput : public Imf::OStream {
+  public:
+    MemoryOutput() : Imf::OStream("memory") {}
+    void write(const char* source, int count) override {
+        const std::size_t end = position_ + static_cast<std::size_t>(count);
+        if (end > bytes_.size()) bytes_.resize(end);
+        std::memcpy(bytes_.data() + position_, source, static_cast<std::size_t>(count));
+        position_ = end;
+    }
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t position) override { position_ = position; }
+    std::string take() { return std::move(bytes_); }
+
+  private:
+    std::string bytes_;
+    std::size_t position_ = 0;
+};
+
+class MemoryInput : public Imf::IStream {
+  public:
+    explicit MemoryInput(std::string_view bytes) : Imf::IStream("memory"), bytes_(bytes) {}
+    bool read(char* target, int count) override {
+        const auto wanted = static_cast<std::size_t>(count);
+        if (position_ > bytes_.size() || wanted > bytes_.size() - position_) {
+            throw Iex::InputExc("unexpected end of file");
+        }
+        std::memcpy(target, bytes_.data() + position_, wanted);
+        position_ += wanted;
+        return position_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+  private:
+    std::string_view bytes_;
+    std::size_t position_ = 0;
+};
+
+/// Adds three float channels stored as glm::vec3. `origin` is where the pixel (0, 0) would be.
+void addSlices(Imf::FrameBuffer& frame, const char* const (&names)[3], const glm::vec3* origin, std::size_t width) {
+    // OpenEXR's slices are mutable for reading and writing alike; writing a file only reads them.
+    char* base = const_cast<char*>(reinterpret_cast<const char*>(origin));
+    for (int c = 0; c < 3; ++c) {
+        frame.insert(names[c], Imf::Slice(Imf::FLOAT, base + c * sizeof(float), sizeof(glm::vec3),
+                                          width * sizeof(glm::vec3)));
+    }
+}
+
+bool hasChannels(const Imf::ChannelList& channels, const char* const (&names)[3]) {
+    return std::ranges::all_of(names, [&](const char* name) { return channels.findChannel(name) != nullptr; });
+}
+
+}  // namespace
+
+std::string encodeExr(const RadianceImage& image, const ImageOptions& options) {
+    const std::vector<glm::vec3> displayed = image.displayed(options.display);
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const auto& [key, value] : options.metadata) header.insert(key, Imf::StringAttribute(value));
+    Imf::FrameBuffer frame;
+    addSlices(frame, kDisplayedNames, displayed.data(), image.width);
+    addSlices(frame, kInvisibleNames, image.invisible.data(), image.width);
+    addSlices(frame, kVisibleNames, image.visible.data(), image.width);
+    for (auto slice = frame.begin(); slice != frame.end(); ++slice) {
+        header.channels().insert(slice.name(), Imf::Channel(Imf::FLOAT));
+    }
+    MemoryOutput memory;
+    {
+        Imf::OutputFile file(memory, header);
+        file.setFrameBuffer(frame);
+        file.writePixels(static_cast<int>(image.height));
+    }  // the destructor completes the table of line offsets
+    return memory.take();
+}
+
+RadianceImage decodeExr(std::string_view bytes, const std::string& file) {
+    static const bool kLimited = [] {
+        Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
+        return true;
+    }();
+    static_cast<void>(kLimited);
+    try {
+        MemoryInput memory(bytes);
+        Imf::InputFile input(memory);
+        const Imf::ChannelList& channels = input.header().channels();
+        const bool both = hasChannels(channels, kInvisibleNames) && hasChannels(channels, kVisibleNames);
+        if (!both && !hasChannels(channels, kDisplayedNames)) {
+            throw InputError(file, "", "has no colour channels",
+                             "expected R, G, B, or invisible.R/G/B and visible.R/G/B");
+        }
+        const Imath::Box2i window = input.header().dataWindow();
+        const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+        const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+        checkImageSize(width, height, bytes.size(), file);
+        RadianceImage image = makeImage(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+        const std::ptrdiff_t shift = window.min.x + window.min.y * static_cast<std::ptrdiff_t>(width);
+        Imf::FrameBuffer frame;
+        if (both) addSlices(frame, kInvisibleNames, image.invisible.data() - shift, image.width);
+        addSlices(frame, both ? kVisibleNames : kDisplayedNames, image.visible.data() - shift, image.width);
+        input.setFrameBuffer(frame);
+        input.readPixels(window.min.y, window.max.y);
+        return image;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& e) {
+        throw InputError(file, "", std::string("is not a readable OpenEXR image: ") + e.what(), "");
+    }
+}
+
+}  // namespace duolux

@@ -1,0 +1,98 @@
+#include "host/film/image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/film/codec.h"
+
+namespace duolux {
+
+namespace {
+
+/// Deflate packs at most 1032 bytes into one, and the densest pixels that are read have one bit.
+constexpr std::int64_t kMaxPixelsPerByte = 1032 * 8;
+
+struct Format {
+    const char* extension;
+    std::string (*encode)(const RadianceImage&, const ImageOptions&);
+    RadianceImage (*decode)(std::string_view, const std::string&);
+};
+
+constexpr Format kFormats[] = {
+    {".exr", encodeExr, decodeExr},
+    {".png", encodePng, decodePng},
+    {".pfm", encodePfm, decodePfm},
+};
+
+const Format* formatOf(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    const auto* format = std::ranges::find(kFormats, extension, &Format::extension);
+    return format != std::end(kFormats) ? format : nullptr;
+}
+
+void writeBytes(const std::filesystem::path& path, std::string_view bytes) {
+    errno = 0;
+    std::ofstream out(path, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) throw std::runtime_error(errno != 0 ? std::strerror(errno) : "write failed");
+}
+
+}  // namespace
+
+std::vector<glm::vec3> RadianceImage::displayed(glm::vec2 d) const {
+    std::vector<glm::vec3> result(visible.size());
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = d.x * invisible[i] + d.y * visible[i];
+    return result;
+}
+
+RadianceImage makeImage(std::uint32_t width, std::uint32_t height) {
+    const std::size_t count = std::size_t{width} * height;
+    return {width, height, std::vector<glm::vec3>(count, glm::vec3(0.0f)),
+            std::vector<glm::vec3>(count, glm::vec3(0.0f))};
+}
+
+void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileBytes, const std::string& file) {
+    if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
+        throw InputError(file, "", fmt::format("has a size of {} x {} pixels", width, height),
+                         fmt::format("expected 1 to {} on each side", kMaxImageSide));
+    }
+    if (width * height / kMaxPixelsPerByte > static_cast<std::int64_t>(fileBytes)) {
+        throw InputError(file, "",
+                         fmt::format("claims {} x {} pixels but is only {} bytes long", width, height, fileBytes),
+                         "expected a complete image");
+    }
+}
+
+bool isImagePath(const std::filesystem::path& path) { return formatOf(path) != nullptr; }
+
+void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options) {
+    assert(image.width > 0 && image.height > 0);
+    assert(image.visible.size() == std::size_t{image.width} * image.height);
+    assert(image.invisible.size() == image.visible.size());
+    const Format* format = formatOf(path);
+    if (format == nullptr) {
+        throw MachineError(fmt::format("{}: unknown image format; expected .exr, .png or .pfm", path.string()));
+    }
+    writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
+        writeBytes(temporary, format->encode(image, options));
+    });
+}
+
+RadianceImage readImage(const std::filesystem::path& path) {
+    const Format* format = formatOf(path);
+    if (format == nullptr) throw InputError(path.string(), "", "unknown image format", "expected .exr, .png or .pfm");
+    return format->decode(readFile(path), path.string());
+}
+
+}  // namespace duolux
