@@ -23,12 +23,12 @@ std::optional<double> secondsLeft(const ProgressState& state);
 /// "0:07", "12:34", "1:02:03".
 std::string formatDuration(double seconds);
 
-/// " 47 % [=======>       ] 1.32 Msamples/s, 0:12 left", or with `finished` "... 1.32 Msamples/s, 0:23 in all".
-/// The bar takes `barWidth` columns; there is none below 3.
+/// " 47 % [=======>       ] 1.32 Msamples/s, 0:12 left", or with `finished` "... 1.32 Msamples/s, 0:23 in
+/// all". The bar takes `barWidth` columns; there is none below 3.
 std::string progressLine(const ProgressState& state, int barWidth, bool finished);
 
-/// Reports progress to a stream: on a terminal as one line rewritten in place, otherwise as a plain line now and then.
-/// All times come from the caller, so it may be called as often as is convenient.
+/// Reports progress to a stream: on a terminal as one line rewritten in place, otherwise as a plain line now
+/// and then. All times come from the caller, so it may be called as often as is convenient.
 class Progress {
   public:
     enum class Style : std::uint8_t { kQuiet, kPlain, kBar };
@@ -47,7 +47,8 @@ class Progress {
     /// The last state again, as the final word; nothing if update() was never called.
     void finish();
 
-    /// Ends a line that a bar left open, so that something else can be printed; the next update() begins a new one.
+    /// Ends a line that a bar left open, so that something else can be printed; the next update() begins a
+    /// new one.
     void leaveLine();
 
   private:

@@ -61,7 +61,8 @@ class MemoryInput : public Imf::IStream {
 };
 
 /// Adds three float channels stored as glm::vec3. `origin` is where the pixel (0, 0) would be.
-void addSlices(Imf::FrameBuffer& frame, const char* const (&names)[3], const glm::vec3* origin, std::size_t width) {
+void addSlices(Imf::FrameBuffer& frame, const char* const (&names)[3], const glm::vec3* origin,
+               std::size_t width) {
     // OpenEXR's slices are mutable for reading and writing alike; writing a file only reads them.
     char* base = const_cast<char*>(reinterpret_cast<const char*>(origin));
     for (int c = 0; c < 3; ++c) {
@@ -71,7 +72,8 @@ void addSlices(Imf::FrameBuffer& frame, const char* const (&names)[3], const glm
 }
 
 bool hasChannels(const Imf::ChannelList& channels, const char* const (&names)[3]) {
-    return std::ranges::all_of(names, [&](const char* name) { return channels.findChannel(name) != nullptr; });
+    return std::ranges::all_of(names,
+                               [&](const char* name) { return channels.findChannel(name) != nullptr; });
 }
 
 }  // namespace
@@ -80,7 +82,8 @@ std::string encodeExr(const RadianceImage& image, const ImageOptions& options) {
     const std::vector<glm::vec3> displayed = image.displayed(options.display);
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
-    for (const auto& [key, value] : options.metadata) header.insert(key, Imf::StringAttribute(value));
+    for (const auto& [key, value] : options.metadata)
+        header.insert(key, Imf::StringAttribute(value));
     Imf::FrameBuffer frame;
     addSlices(frame, kDisplayedNames, displayed.data(), image.width);
     addSlices(frame, kInvisibleNames, image.invisible.data(), image.width);
@@ -116,7 +119,8 @@ RadianceImage decodeExr(std::string_view bytes, const std::string& file) {
         const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
         const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
         checkImageSize(width, height, bytes.size(), file);
-        RadianceImage image = makeImage(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+        RadianceImage image =
+            makeImage(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
         const std::ptrdiff_t shift = window.min.x + window.min.y * static_cast<std::ptrdiff_t>(width);
         Imf::FrameBuffer frame;
         if (both) addSlices(frame, kInvisibleNames, image.invisible.data() - shift, image.width);

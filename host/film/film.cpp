@@ -35,7 +35,8 @@ void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> 
 
 std::uint64_t Film::totalSamples() const {
     std::uint64_t total = 0;
-    for (std::uint32_t samples : samples_) total += samples;
+    for (std::uint32_t samples : samples_)
+        total += samples;
     return total;
 }
 

@@ -9,8 +9,9 @@
 
 namespace duolux {
 
-/// Accumulates radiance exactly: every sample is rounded once to a multiple of `quantum` (on the device), and sums are
-/// 64-bit integers. Integer addition is associative, so the image is the same bits however the work was split.
+/// Accumulates radiance exactly: every sample is rounded once to a multiple of `quantum` (on the device), and
+/// sums are 64-bit integers. Integer addition is associative, so the image is the same bits however the work
+/// was split.
 class Film {
   public:
     /// Sums of one pixel, in quanta.

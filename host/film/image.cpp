@@ -34,8 +34,9 @@ constexpr Format kFormats[] = {
 
 const Format* formatOf(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::ranges::transform(extension, extension.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
     const auto* format = std::ranges::find(kFormats, extension, &Format::extension);
     return format != std::end(kFormats) ? format : nullptr;
 }
@@ -52,7 +53,8 @@ void writeBytes(const std::filesystem::path& path, std::string_view bytes) {
 
 std::vector<glm::vec3> RadianceImage::displayed(glm::vec2 d) const {
     std::vector<glm::vec3> result(visible.size());
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = d.x * invisible[i] + d.y * visible[i];
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = d.x * invisible[i] + d.y * visible[i];
     return result;
 }
 
@@ -68,13 +70,16 @@ void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileByt
                          fmt::format("expected 1 to {} on each side", kMaxImageSide));
     }
     if (width * height / kMaxPixelsPerByte > static_cast<std::int64_t>(fileBytes)) {
-        throw InputError(file, "",
-                         fmt::format("claims {} x {} pixels but is only {} bytes long", width, height, fileBytes),
-                         "expected a complete image");
+        throw InputError(
+            file, "",
+            fmt::format("claims {} x {} pixels but is only {} bytes long", width, height, fileBytes),
+            "expected a complete image");
     }
 }
 
-bool isImagePath(const std::filesystem::path& path) { return formatOf(path) != nullptr; }
+bool isImagePath(const std::filesystem::path& path) {
+    return formatOf(path) != nullptr;
+}
 
 void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options) {
     assert(image.width > 0 && image.height > 0);
@@ -82,7 +87,8 @@ void writeImage(const std::filesystem::path& path, const RadianceImage& image, c
     assert(image.invisible.size() == image.visible.size());
     const Format* format = formatOf(path);
     if (format == nullptr) {
-        throw MachineError(fmt::format("{}: unknown image format; expected .exr, .png or .pfm", path.string()));
+        throw MachineError(
+            fmt::format("{}: unknown image format; expected .exr, .png or .pfm", path.string()));
     }
     writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
         writeBytes(temporary, format->encode(image, options));
@@ -91,7 +97,8 @@ void writeImage(const std::filesystem::path& path, const RadianceImage& image, c
 
 RadianceImage readImage(const std::filesystem::path& path) {
     const Format* format = formatOf(path);
-    if (format == nullptr) throw InputError(path.string(), "", "unknown image format", "expected .exr, .png or .pfm");
+    if (format == nullptr)
+        throw InputError(path.string(), "", "unknown image format", "expected .exr, .png or .pfm");
     return format->decode(readFile(path), path.string());
 }
 

@@ -20,7 +20,7 @@ struct RadianceImage {
 
 struct ImageOptions {
     glm::vec2 display{0.0f, 1.0f};
-    float exposure = 0.0f;  ///< stops; PNG only
+    float exposure = 0.0f;                                      ///< stops; PNG only
     std::vector<std::pair<std::string, std::string>> metadata;  ///< EXR and PNG text attributes
 };
 
@@ -31,8 +31,8 @@ bool isImagePath(const std::filesystem::path& path);
 /// PNG: 8 bit sRGB after exposure, clamped. PFM: float RGB (displayed). Throws MachineError.
 void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options);
 
-/// Reads an EXR written by writeImage, or a PFM or PNG (then as the visible component; PNG decoded from sRGB to
-/// linear). Throws InputError.
+/// Reads an EXR written by writeImage, or a PFM or PNG (then as the visible component; PNG decoded from sRGB
+/// to linear). Throws InputError.
 RadianceImage readImage(const std::filesystem::path& path);
 
 }  // namespace duolux

@@ -1,5 +1,5 @@
-// PFM, "portable float map" (Paul Debevec): a text header "PF\nWIDTH HEIGHT\nSCALE\n", then floats, the bottom row
-// first. A negative scale means little-endian. "Pf" has one channel.
+// PFM, "portable float map" (Paul Debevec): a text header "PF\nWIDTH HEIGHT\nSCALE\n", then floats, the
+// bottom row first. A negative scale means little-endian. "Pf" has one channel.
 #include <fmt/format.h>
 
 #include <array>
@@ -26,7 +26,8 @@ struct PfmHeader {
     std::size_t dataOffset = 0;
 };
 
-/// The next word of the header; exactly one white-space byte after it is consumed, as the format demands of the last.
+/// The next word of the header; exactly one white-space byte after it is consumed, as the format demands of
+/// the last.
 std::string_view nextWord(std::string_view bytes, std::size_t& offset) {
     constexpr std::string_view kSpace = " \t\r\n";
     const std::size_t begin = bytes.find_first_not_of(kSpace, offset);
@@ -48,13 +49,15 @@ std::optional<T> parse(std::string_view word) {
 PfmHeader parseHeader(std::string_view bytes, const std::string& file) {
     PfmHeader header;
     const std::string_view magic = nextWord(bytes, header.dataOffset);
-    if (magic != "PF" && magic != "Pf") throw InputError(file, "", "is not a PFM image", "expected it to begin with PF");
+    if (magic != "PF" && magic != "Pf")
+        throw InputError(file, "", "is not a PFM image", "expected it to begin with PF");
     header.channels = magic == "PF" ? 3 : 1;
     const auto width = parse<std::int64_t>(nextWord(bytes, header.dataOffset));
     const auto height = parse<std::int64_t>(nextWord(bytes, header.dataOffset));
     const auto scale = parse<double>(nextWord(bytes, header.dataOffset));
     if (!width || !height || !scale || !std::isfinite(*scale) || *scale == 0.0) {
-        throw InputError(file, "", "has a malformed PFM header", "expected width, height and a scale other than 0");
+        throw InputError(file, "", "has a malformed PFM header",
+                         "expected width, height and a scale other than 0");
     }
     header.width = *width;
     header.height = *height;
@@ -87,9 +90,10 @@ RadianceImage decodePfm(std::string_view bytes, const std::string& file) {
     const auto pixelBytes = static_cast<std::size_t>(header.channels) * sizeof(float);
     const std::size_t needed = static_cast<std::size_t>(header.width * header.height) * pixelBytes;
     if (bytes.size() - header.dataOffset < needed) {
-        throw InputError(file, "", fmt::format("is truncated: {} of {} bytes of pixels",
-                                               bytes.size() - header.dataOffset, needed),
-                         "expected a complete image");
+        throw InputError(
+            file, "",
+            fmt::format("is truncated: {} of {} bytes of pixels", bytes.size() - header.dataOffset, needed),
+            "expected a complete image");
     }
     RadianceImage image =
         makeImage(static_cast<std::uint32_t>(header.width), static_cast<std::uint32_t>(header.height));

@@ -20,14 +20,15 @@ std::vector<png_byte> toBytes(const RadianceImage& image, const ImageOptions& op
     std::vector<png_byte> bytes(pixels.size() * 3);
     parallelFor(pixels.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            for (int c = 0; c < 3; ++c) bytes[3 * i + c] = toSrgb8(scale * static_cast<double>(pixels[i][c]));
+            for (int c = 0; c < 3; ++c)
+                bytes[3 * i + c] = toSrgb8(scale * static_cast<double>(pixels[i][c]));
         }
     });
     return bytes;
 }
 
-/// What libpng's callbacks share with encodePng. libpng reports errors by longjmp, so nothing with a destructor may
-/// live between setjmp and it: all such things are made before.
+/// What libpng's callbacks share with encodePng. libpng reports errors by longjmp, so nothing with a
+/// destructor may live between setjmp and it: all such things are made before.
 struct PngOutput {
     std::string bytes;
     std::string problem;
@@ -71,12 +72,13 @@ bool writePng(png_structp png, png_infop info, PngOutput& output, std::uint32_t 
               const png_byte* pixels, const std::vector<png_text>& texts) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_write_fn(png, &output, onWrite, onFlush);
-    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_RELATIVE);
     if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
     png_write_info(png, info);
-    for (std::uint32_t y = 0; y < height; ++y) png_write_row(png, pixels + std::size_t{3} * width * y);
+    for (std::uint32_t y = 0; y < height; ++y)
+        png_write_row(png, pixels + std::size_t{3} * width * y);
     png_write_end(png, info);
     return true;
 }
@@ -117,7 +119,8 @@ RadianceImage decodePng(std::string_view bytes, const std::string& file) {
     if (png_image_finish_read(&png, &black, pixels.data(), 0, nullptr) == 0) throwUnreadable(png, file);
     RadianceImage image = makeImage(png.width, png.height);
     for (std::size_t i = 0; i < image.visible.size(); ++i) {
-        for (int c = 0; c < 3; ++c) image.visible[i][c] = fromSrgb8(pixels[3 * i + c]);
+        for (int c = 0; c < 3; ++c)
+            image.visible[i][c] = fromSrgb8(pixels[3 * i + c]);
     }
     return image;
 }

@@ -22,7 +22,8 @@ std::uint8_t toSrgb8(double linear) {
 float fromSrgb8(std::uint8_t code) {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> values{};
-        for (int i = 0; i < 256; ++i) values[i] = static_cast<float>(srgbDecode(i / 255.0));
+        for (int i = 0; i < 256; ++i)
+            values[i] = static_cast<float>(srgbDecode(i / 255.0));
         return values;
     }();
     return table[code];

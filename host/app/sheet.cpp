@@ -1,0 +1,76 @@
+#include "host/film/sheet.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/app/commands.h"
+#include "host/base/error.h"
+#include "host/base/version.h"
+#include "host/film/image.h"
+
+namespace duolux {
+
+namespace {
+
+struct SheetOptions {
+    std::string output;
+    std::uint32_t columns = 4;
+    std::vector<std::string> labels;
+    std::vector<std::string> images;
+};
+
+void runSheet(const SheetOptions& options) {
+    if (!isImagePath(options.output)) {
+        throw UsageError(
+            fmt::format("-o {}: unknown image format; expected .png, .exr or .pfm", options.output));
+    }
+    if (options.labels.size() > options.images.size()) {
+        throw UsageError(
+            fmt::format("--label was given {} times for {} images; expected one an image at most",
+                        options.labels.size(), options.images.size()));
+    }
+    std::vector<SheetCell> cells;
+    for (std::size_t i = 0; i < options.images.size(); ++i) {
+        const std::filesystem::path path = options.images[i];
+        RadianceImage image = readImage(path);
+        if (i > 0 && (image.width != cells[0].image.width || image.height != cells[0].image.height)) {
+            throw InputError(path.string(), "", fmt::format("is {} x {} pixels", image.width, image.height),
+                             fmt::format("expected {} x {}, the size of {}", cells[0].image.width,
+                                         cells[0].image.height, options.images[0]));
+        }
+        cells.push_back(
+            {std::move(image), i < options.labels.size() ? options.labels[i] : path.stem().string()});
+    }
+    ImageOptions imageOptions;
+    imageOptions.metadata.emplace_back("Software", fmt::format("duolux {}", versionString()));
+    writeImage(options.output, makeSheet(cells, options.columns), imageOptions);
+}
+
+}  // namespace
+
+void addSheetCommand(CLI::App& app) {
+    auto options = std::make_shared<SheetOptions>();
+    CLI::App* command = app.add_subcommand("sheet", "Lay images out side by side with captions");
+    command->add_option("-o,--output", options->output, "The sheet: .png (or .exr, .pfm)")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--columns", options->columns, "Images in a row")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->type_name("N");
+    command
+        ->add_option("--label", options->labels,
+                     "Caption of the first, second, ... image (default: the file's name)")
+        ->allow_extra_args(false)
+        ->type_name("TEXT");
+    command->add_option("images", options->images, "Images of one size")->required()->type_name("IMAGE");
+    command->callback([options] { runSheet(*options); });
+}
+
+}  // namespace duolux

@@ -1,0 +1,24 @@
+#include "host/film/font.h"
+
+// The assembler copies the file: a C++ array of 760,000 numbers would take the compiler seconds.
+// DUOLUX_FONT_FILE is set by CMake.
+asm(".pushsection .rodata\n"
+    ".balign 16\n"
+    "duoluxFontBegin:\n"
+    ".incbin \"" DUOLUX_FONT_FILE
+    "\"\n"
+    "duoluxFontEnd:\n"
+    ".popsection\n");
+
+namespace duolux {
+
+namespace {
+extern "C" const unsigned char duoluxFontBegin[];
+extern "C" const unsigned char duoluxFontEnd[];
+}  // namespace
+
+std::span<const unsigned char> fontFile() {
+    return {duoluxFontBegin, duoluxFontEnd};
+}
+
+}  // namespace duolux

@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+
+namespace duolux {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FileTest : public testing::Test {
+  protected:
+    FileTest() {
+        std::string name = (fs::temp_directory_path() / "duolux-test-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
+        folder_ = name;
+    }
+    ~FileTest() override { fs::remove_all(folder_); }
+
+    static void write(const fs::path& path, std::string_view text) {
+        std::ofstream(path, std::ios::binary) << text;
+    }
+    std::size_t filesInFolder() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(FileTest, ReadsAllBytes) {
+    const std::string bytes("a\0\n\r\xFF", 5);
+    write(folder_ / "f", bytes);
+    EXPECT_EQ(readFile(folder_ / "f"), bytes);
+    write(folder_ / "empty", "");
+    EXPECT_EQ(readFile(folder_ / "empty"), "");
+}
+
+TEST_F(FileTest, CannotReadWhatIsNoFile) {
+    EXPECT_THROW(readFile(folder_ / "none"), InputError);
+    EXPECT_THROW(readFile(folder_), InputError);
+}
+
+TEST_F(FileTest, WritesUnderATemporaryNameOfTheSameExtension) {
+    const fs::path path = folder_ / "image.exr";
+    write(path, "old");
+    writeFileAtomically(path, [&](const fs::path& temporary) {
+        EXPECT_NE(temporary, path);
+        EXPECT_EQ(temporary.parent_path(), folder_);
+        EXPECT_EQ(temporary.extension(), ".exr");
+        write(temporary, "new");
+        EXPECT_EQ(readFile(path), "old");
+    });
+    EXPECT_EQ(readFile(path), "new");
+    EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(FileTest, AFailedWriteLeavesTheOldFileAlone) {
+    const fs::path path = folder_ / "image.exr";
+    write(path, "old");
+    try {
+        writeFileAtomically(path, [&](const fs::path& temporary) {
+            write(temporary, "half of the n");
+            throw std::runtime_error("disk on fire");
+        });
+        FAIL() << "expected MachineError";
+    } catch (const MachineError& e) {
+        EXPECT_EQ(e.what(), path.string() + ": cannot write: disk on fire");
+    }
+    EXPECT_EQ(readFile(path), "old");
+    EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(FileTest, ErrorsOfTheProgramPassThrough) {
+    const auto fail = [](const fs::path&) { throw InputError("scene.json", "", "is odd", ""); };
+    EXPECT_THROW(writeFileAtomically(folder_ / "f", fail), InputError);
+    EXPECT_EQ(filesInFolder(), 0u);
+}
+
+}  // namespace
+}  // namespace duolux

@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "host/film/film.h"
+
+namespace duolux {
+namespace {
+
+constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+
+TEST(Film, IsBlackBeforeAnySample) {
+    const Film film(3, 2, 0.25f);
+    const RadianceImage image = film.resolve();
+    EXPECT_EQ(image.width, 3u);
+    EXPECT_EQ(image.height, 2u);
+    ASSERT_EQ(image.visible.size(), 6u);
+    for (int i = 0; i < 6; ++i) {
+        EXPECT_EQ(image.visible[i], glm::vec3(0.0f));
+        EXPECT_EQ(image.invisible[i], glm::vec3(0.0f));
+    }
+    EXPECT_EQ(film.totalSamples(), 0u);
+}
+
+TEST(Film, ResolvesToTheMeanOfEachPixel) {
+    Film film(2, 1, 0.25f);
+    const std::uint32_t both[] = {0, 1};
+    const Film::PixelSum sums[] = {{{4, 8, -12}, {1, 2, 3}}, {{0, 0, 0}, {400, 0, 0}}};
+    film.add(both, sums, 2);
+    const std::uint32_t second[] = {1};
+    const Film::PixelSum more[] = {{{0, 0, 0}, {200, 0, 0}}};
+    film.add(second, more, 4);
+    const RadianceImage image = film.resolve();
+    EXPECT_EQ(image.invisible[0], glm::vec3(0.5f, 1.0f, -1.5f));
+    EXPECT_EQ(image.visible[0], glm::vec3(0.125f, 0.25f, 0.375f));
+    EXPECT_EQ(image.visible[1], glm::vec3(600.0f * 0.25f / 6.0f, 0.0f, 0.0f));
+    EXPECT_EQ(film.samplesOf(0), 2u);
+    EXPECT_EQ(film.samplesOf(1), 6u);
+    EXPECT_EQ(film.totalSamples(), 8u);
+    EXPECT_FALSE(film.overflowed());
+}
+
+TEST(Film, SaturatesOnOverflowAndTells) {
+    const std::uint32_t pixel[] = {0};
+    Film high(1, 1, 1.0f);
+    const Film::PixelSum almost[] = {{{kMax - 1, 0, 0}, {kMax, 0, 0}}};
+    high.add(pixel, almost, 1);
+    EXPECT_FALSE(high.overflowed());
+    const Film::PixelSum two[] = {{{2, 5, 0}, {0, 0, 0}}};
+    high.add(pixel, two, 1);
+    EXPECT_TRUE(high.overflowed());
+    EXPECT_EQ(high.sums()[0].invisible[0], kMax);
+    EXPECT_EQ(high.sums()[0].invisible[1], 5);
+    EXPECT_EQ(high.sums()[0].visible[0], kMax);
+
+    Film low(1, 1, 1.0f);
+    const Film::PixelSum bottom[] = {{{0, 0, 0}, {0, 0, kMin}}};
+    low.add(pixel, bottom, 1);
+    EXPECT_FALSE(low.overflowed());
+    const Film::PixelSum less[] = {{{0, 0, 0}, {0, 0, -1}}};
+    low.add(pixel, less, 1);
+    EXPECT_TRUE(low.overflowed());
+    EXPECT_EQ(low.sums()[0].visible[2], kMin);
+}
+
+TEST(Film, IsTheSameBitsInWhateverOrderPartsAreAdded) {
+    constexpr std::uint32_t kPixels = 16;
+    constexpr int kParts = 64;
+    std::mt19937_64 random(1);
+    std::vector<std::vector<Film::PixelSum>> parts(kParts, std::vector<Film::PixelSum>(kPixels));
+    for (auto& part : parts) {
+        for (Film::PixelSum& sum : part) {
+            for (int c = 0; c < 3; ++c) {
+                sum.invisible[c] = static_cast<std::int64_t>(random()) / (2 * kParts);
+                sum.visible[c] = static_cast<std::int64_t>(random()) / (2 * kParts);
+            }
+        }
+    }
+    std::vector<std::uint32_t> pixels(kPixels);
+    std::iota(pixels.begin(), pixels.end(), 0u);
+
+    Film forward(kPixels, 1, 0x1p-20f);
+    for (const auto& part : parts)
+        forward.add(pixels, part, 3);
+
+    // Another order of parts and of pixels, and every part in two pieces.
+    Film shuffled(kPixels, 1, 0x1p-20f);
+    std::ranges::shuffle(parts, random);
+    for (const auto& part : parts) {
+        std::vector<std::uint32_t> order = pixels;
+        std::ranges::shuffle(order, random);
+        std::vector<Film::PixelSum> sums;
+        for (std::uint32_t pixel : order)
+            sums.push_back(part[pixel]);
+        const std::span<const std::uint32_t> orderSpan(order);
+        const std::span<const Film::PixelSum> sumSpan(sums);
+        shuffled.add(orderSpan.subspan(5), sumSpan.subspan(5), 3);
+        shuffled.add(orderSpan.first(5), sumSpan.first(5), 3);
+    }
+
+    EXPECT_FALSE(forward.overflowed());
+    EXPECT_EQ(forward.totalSamples(), shuffled.totalSamples());
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_EQ(forward.sums()[i].invisible[c], shuffled.sums()[i].invisible[c]);
+            EXPECT_EQ(forward.sums()[i].visible[c], shuffled.sums()[i].visible[c]);
+        }
+    }
+    EXPECT_EQ(forward.resolve().visible, shuffled.resolve().visible);
+    EXPECT_EQ(forward.resolve().invisible, shuffled.resolve().invisible);
+}
+
+}  // namespace
+}  // namespace duolux

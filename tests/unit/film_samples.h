@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "host/film/image.h"
+
+namespace duolux::test {
+
+/// An image with values of all magnitudes, signs and exponents in both components, the same for the same
+/// size.
+RadianceImage variedImage(std::uint32_t width, std::uint32_t height);
+
+/// An image whose visible component is one colour.
+RadianceImage plainImage(std::uint32_t width, std::uint32_t height, glm::vec3 colour);
+
+/// True if both hold the same bits (so that NaN equals NaN, and 0 differs from -0).
+bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b);
+
+/// A folder of its own, removed with what is in it at the end of its scope.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+void writeText(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace duolux::test
