@@ -13,23 +13,24 @@ enum class DeviceKind : std::uint8_t { kCpu, kGpu };
 
 /// What `duolux devices` shows of one physical device.
 struct DeviceInfo {
-    std::uint32_t index = 0;     ///< in the loader's order
+    std::uint32_t index = 0;  ///< in the loader's order
     std::string name;
-    std::string driver;          ///< name and version, for example "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+    std::string driver;  ///< name and version, for example "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
     DeviceKind kind = DeviceKind::kCpu;
     std::uint32_t apiVersion = 0;
     std::uint32_t subgroupSize = 0;
     std::uint64_t maxStorageBufferRange = 0;  ///< bytes
     std::uint64_t maxTexelBufferElements = 0;
-    std::uint64_t memoryBytes = 0;            ///< of the largest device-local heap
-    std::string unusable;        ///< empty, or which required feature is missing
+    std::uint64_t memoryBytes = 0;  ///< of the largest device-local heap
+    std::string unusable;           ///< empty, or which required feature is missing
 };
 
 /// All physical devices, usable or not. Throws MachineError if there is no Vulkan loader or driver.
 std::vector<DeviceInfo> listDevices();
 
-/// The device chosen by `selector`: "" (a usable GPU if there is one, else the software driver), "cpu", "gpu", an
-/// index, or a part of a name (any case). Throws UsageError naming what is there if nothing matches.
+/// The device chosen by `selector`: "" (a usable GPU if there is one, else the software driver), "cpu",
+/// "gpu", an index, or a part of a name (any case). Throws UsageError naming what is there if nothing
+/// matches.
 const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::string_view selector);
 
 enum class Validation : std::uint8_t {

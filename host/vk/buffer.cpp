@@ -1,0 +1,127 @@
+#include "host/vk/buffer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "host/base/error.h"
+#include "host/vk/commands.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr std::uint64_t kTexelBytes = 16;
+
+vk::BufferUsageFlags usageOf(BufferUse use) {
+    switch (use) {
+        case BufferUse::kTexels:
+            return vk::BufferUsageFlagBits::eUniformTexelBuffer;
+        case BufferUse::kUniform:
+            return vk::BufferUsageFlagBits::eUniformBuffer;
+        case BufferUse::kStorage:
+            return vk::BufferUsageFlagBits::eStorageBuffer;
+    }
+    return {};
+}
+
+/// Index of a memory type with all of `wanted`, preferring one with `preferred`, too; nothing if there is
+/// none.
+std::optional<std::uint32_t> memoryType(const vk::PhysicalDeviceMemoryProperties& memory,
+                                        std::uint32_t allowed, vk::MemoryPropertyFlags wanted,
+                                        vk::MemoryPropertyFlags preferred) {
+    for (const vk::MemoryPropertyFlags flags : {wanted | preferred, wanted}) {
+        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+            if ((allowed >> i & 1) != 0 && (memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
+        }
+    }
+    return std::nullopt;
+}
+
+void checkLimits(const DeviceInfo& info, BufferUse use, std::uint64_t size, std::string_view name) {
+    const auto fail = [&](std::uint64_t limit) {
+        throw MachineError(fmt::format("{} ({}): {} take {} bytes, more than the {} that the device can bind",
+                                       info.name, info.driver, name, size, limit));
+    };
+    if (use == BufferUse::kTexels && size / kTexelBytes > info.maxTexelBufferElements) {
+        fail(info.maxTexelBufferElements * kTexelBytes);
+    }
+    if (use == BufferUse::kStorage && size > info.maxStorageBufferRange) fail(info.maxStorageBufferRange);
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
+               Memory memory, std::string_view name)
+    : device_(&device.handle()), use_(use), size_(std::max<std::uint64_t>((size + 15) / 16 * 16, 16)) {
+    checkLimits(device.info(), use, size_, name);
+    try {
+        buffer_ = vk::raii::Buffer(*device_, vk::BufferCreateInfo({}, size_, usageOf(use) | extra));
+        const vk::MemoryRequirements requirements = buffer_.getMemoryRequirements();
+        const vk::PhysicalDeviceMemoryProperties properties = device.physical().getMemoryProperties();
+        using Flag = vk::MemoryPropertyFlagBits;
+        std::optional<std::uint32_t> type;
+        switch (memory) {
+            case Memory::kDevice:
+                type = memoryType(properties, requirements.memoryTypeBits, Flag::eDeviceLocal, {});
+                break;
+            case Memory::kStaging:
+                type = memoryType(properties, requirements.memoryTypeBits, Flag::eHostVisible,
+                                  Flag::eHostCoherent);
+                break;
+            case Memory::kReadback:
+                type = memoryType(properties, requirements.memoryTypeBits, Flag::eHostVisible,
+                                  Flag::eHostCached);
+                break;
+        }
+        if (!type) throw MachineError(fmt::format("{}: no memory type for {}", device.info().name, name));
+        memory_ = vk::raii::DeviceMemory(*device_, vk::MemoryAllocateInfo(requirements.size, *type));
+        allocated_ = requirements.size;
+        buffer_.bindMemory(*memory_, 0);
+        const vk::MemoryPropertyFlags flags = properties.memoryTypes[*type].propertyFlags;
+        coherent_ = static_cast<bool>(flags & Flag::eHostCoherent);
+        if (flags & Flag::eHostVisible) mapped_ = memory_.mapMemory(0, VK_WHOLE_SIZE);
+        if (use == BufferUse::kTexels && memory != Memory::kStaging) {
+            view_ = vk::raii::BufferView(
+                *device_,
+                vk::BufferViewCreateInfo({}, *buffer_, vk::Format::eR32G32B32A32Uint, 0, VK_WHOLE_SIZE));
+        }
+    } catch (const vk::SystemError& e) {
+        throw MachineError(fmt::format("{} ({}): allocating {} bytes for {}: {}", device.info().name,
+                                       device.info().driver, size_, name, e.what()));
+    }
+}
+
+Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
+                      std::string_view name) {
+    Buffer buffer(device, use, bytes.size(), vk::BufferUsageFlagBits::eTransferDst, Memory::kDevice, name);
+    if (bytes.empty()) return buffer;
+    const auto write = [&](const Buffer& target) {
+        std::memcpy(target.mapped_, bytes.data(), bytes.size());
+        if (!target.coherent_) {
+            target.device_->flushMappedMemoryRanges(vk::MappedMemoryRange(*target.memory_, 0, VK_WHOLE_SIZE));
+        }
+    };
+    if (buffer.mapped_ != nullptr) {
+        write(buffer);
+        return buffer;
+    }
+    const Buffer staging(device, BufferUse::kStorage, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc,
+                         Memory::kStaging, name);
+    write(staging);
+    runOnce(device, fmt::format("uploading {}", name), [&](const vk::raii::CommandBuffer& commands) {
+        commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy(0, 0, bytes.size()));
+    });
+    return buffer;
+}
+
+Buffer Buffer::readback(const Device& device, std::uint64_t size, std::string_view name) {
+    return Buffer(device, BufferUse::kStorage, size, {}, Memory::kReadback, name);
+}
+
+void Buffer::invalidate() const {
+    if (!coherent_) device_->invalidateMappedMemoryRanges(vk::MappedMemoryRange(*memory_, 0, VK_WHOLE_SIZE));
+}
+
+}  // namespace duolux

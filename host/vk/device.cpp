@@ -1,0 +1,261 @@
+#include "host/vk/device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <mutex>
+
+#include "host/base/error.h"
+#include "host/base/version.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+std::string lowered(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return out;
+}
+
+vk::raii::Context makeContext() {
+    try {
+        return vk::raii::Context();
+    } catch (const std::exception&) {
+        throw MachineError(
+            "no Vulkan loader found; install libvulkan1 and a driver (mesa-vulkan-drivers has lavapipe)");
+    }
+}
+
+vk::raii::Instance makeInstance(const vk::raii::Context& context, Validation validation) {
+    const vk::ApplicationInfo application("duolux", 0, "duolux", 0, VK_API_VERSION_1_2);
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    const std::array<vk::ValidationFeatureEnableEXT, 1> enables{
+        vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    vk::ValidationFeaturesEXT features(enables);
+    vk::InstanceCreateInfo create({}, &application);
+    if (validation == Validation::kOn) {
+        const auto available = context.enumerateInstanceLayerProperties();
+        const bool found =
+            std::any_of(available.begin(), available.end(), [](const vk::LayerProperties& layer) {
+                return std::strcmp(layer.layerName, kValidationLayer) == 0;
+            });
+        if (!found) {
+            throw MachineError(
+                fmt::format("{} is not installed; install vulkan-validationlayers", kValidationLayer));
+        }
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        create.setPNext(&features);
+    }
+    create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
+    try {
+        return vk::raii::Instance(context, create);
+    } catch (const vk::SystemError& e) {
+        throw MachineError(fmt::format("cannot create a Vulkan instance: {}", e.what()));
+    }
+}
+
+/// The features the kernels need, as far as the device has them.
+std::string missingFeature(const vk::raii::PhysicalDevice& physical) {
+    const vk::PhysicalDeviceProperties properties = physical.getProperties();
+    if (properties.apiVersion < VK_API_VERSION_1_2) return "Vulkan 1.2";
+    const auto features =
+        physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    if (!features.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout) return "scalarBlockLayout";
+    const auto subgroup =
+        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()
+            .get<vk::PhysicalDeviceSubgroupProperties>();
+    if (!(subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute) ||
+        !(subgroup.supportedOperations & vk::SubgroupFeatureFlagBits::eBallot)) {
+        return "subgroup ballot in compute shaders";
+    }
+    const auto families = physical.getQueueFamilyProperties();
+    if (std::none_of(families.begin(), families.end(), [](const vk::QueueFamilyProperties& family) {
+            return static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eCompute);
+        })) {
+        return "a compute queue";
+    }
+    return "";
+}
+
+DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t index) {
+    const auto chain =
+        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties,
+                                vk::PhysicalDeviceDriverProperties>();
+    const vk::PhysicalDeviceProperties& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    DeviceInfo info;
+    info.index = index;
+    info.name = properties.deviceName.data();
+    info.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
+    info.kind = properties.deviceType == vk::PhysicalDeviceType::eCpu ? DeviceKind::kCpu : DeviceKind::kGpu;
+    info.apiVersion = properties.apiVersion;
+    info.subgroupSize = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
+    info.maxStorageBufferRange = properties.limits.maxStorageBufferRange;
+    info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
+    const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
+            info.memoryBytes = std::max<std::uint64_t>(info.memoryBytes, memory.memoryHeaps[i].size);
+        }
+    }
+    info.unusable = missingFeature(physical);
+    return info;
+}
+
+std::vector<vk::raii::PhysicalDevice> physicalDevices(const vk::raii::Instance& instance) {
+    std::vector<vk::raii::PhysicalDevice> devices;
+    try {
+        devices = instance.enumeratePhysicalDevices();
+    } catch (const vk::SystemError&) {
+        devices.clear();  // the loader found no working driver
+    }
+    if (devices.empty())
+        throw MachineError("no Vulkan device found; install mesa-vulkan-drivers for lavapipe");
+    return devices;
+}
+
+std::vector<DeviceInfo> describeAll(const std::vector<vk::raii::PhysicalDevice>& devices) {
+    std::vector<DeviceInfo> infos;
+    for (std::uint32_t i = 0; i < devices.size(); ++i)
+        infos.push_back(describe(devices[i], i));
+    return infos;
+}
+
+vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t queueFamily,
+                            const DeviceInfo& info) {
+    const float priority = 1.0f;
+    const vk::DeviceQueueCreateInfo queue({}, queueFamily, 1, &priority);
+    vk::PhysicalDeviceVulkan12Features features12;
+    features12.scalarBlockLayout = VK_TRUE;
+    const vk::PhysicalDeviceFeatures2 features({}, &features12);
+    vk::DeviceCreateInfo create({}, queue);
+    create.setPNext(&features);
+    try {
+        return vk::raii::Device(physical, create);
+    } catch (const vk::SystemError& e) {
+        throw MachineError(
+            fmt::format("cannot create a device on {} ({}): {}", info.name, info.driver, e.what()));
+    }
+}
+
+std::uint32_t computeFamily(const vk::raii::PhysicalDevice& physical) {
+    const auto families = physical.getQueueFamilyProperties();
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
+        if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return i;
+    }
+    return 0;  // not reached: missingFeature has looked
+}
+
+}  // namespace
+
+struct Device::MessageLog {
+    mutable std::mutex mutex;
+    std::vector<std::string> messages;
+
+    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                  VkDebugUtilsMessageTypeFlagsEXT,
+                                                  const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                  void* user) {
+        MessageLog& log = *static_cast<MessageLog*>(user);
+        const std::lock_guard lock(log.mutex);
+        log.messages.emplace_back(data->pMessage);
+        return VK_FALSE;
+    }
+};
+
+namespace {
+
+vk::raii::DebugUtilsMessengerEXT makeMessenger(const vk::raii::Instance& instance, Validation validation,
+                                               PFN_vkDebugUtilsMessengerCallbackEXT callback, void* user) {
+    if (validation == Validation::kOff) return nullptr;
+    VkDebugUtilsMessengerCreateInfoEXT create{};
+    create.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    create.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    create.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    create.pfnUserCallback = callback;
+    create.pUserData = user;
+    return {instance, vk::DebugUtilsMessengerCreateInfoEXT(create)};
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> listDevices() {
+    const vk::raii::Context context = makeContext();
+    const vk::raii::Instance instance = makeInstance(context, Validation::kOff);
+    return describeAll(physicalDevices(instance));
+}
+
+const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::string_view selector) {
+    const auto first = [&](auto&& matches) -> const DeviceInfo* {
+        for (const DeviceInfo& device : devices) {
+            if (device.unusable.empty() && matches(device)) return &device;
+        }
+        return nullptr;
+    };
+    const auto isKind = [](DeviceKind kind) {
+        return [kind](const DeviceInfo& d) { return d.kind == kind; };
+    };
+    const std::string wanted = lowered(selector);
+    const DeviceInfo* found = nullptr;
+    std::uint32_t index = 0;
+    const auto [end, ec] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (wanted.empty()) {
+        found = first(isKind(DeviceKind::kGpu));
+        if (found == nullptr) found = first(isKind(DeviceKind::kCpu));
+    } else if (wanted == "gpu") {
+        found = first(isKind(DeviceKind::kGpu));
+    } else if (wanted == "cpu") {
+        found = first(isKind(DeviceKind::kCpu));
+    } else if (ec == std::errc() && end == wanted.data() + wanted.size()) {
+        found = first([&](const DeviceInfo& d) { return d.index == index; });
+    } else {
+        found = first([&](const DeviceInfo& d) { return lowered(d.name).find(wanted) != std::string::npos; });
+    }
+    if (found != nullptr) return *found;
+    std::string there;
+    for (const DeviceInfo& device : devices) {
+        there += fmt::format("{}{} \"{}\"", there.empty() ? "" : ", ", device.index, device.name);
+        if (!device.unusable.empty()) there += fmt::format(" (lacks {})", device.unusable);
+    }
+    if (selector.empty()) throw MachineError(fmt::format("no usable Vulkan device; there is {}", there));
+    throw UsageError(fmt::format("--device {}: no such usable device; there is {}", selector, there));
+}
+
+Device::Device(std::string_view selector, Validation validation)
+    : log_(std::make_unique<MessageLog>()),
+      context_(makeContext()),
+      instance_(makeInstance(context_, validation)),
+      messenger_(makeMessenger(instance_, validation, &MessageLog::receive, log_.get())),
+      physical_(nullptr),
+      device_(nullptr),
+      queue_(nullptr) {
+    std::vector<vk::raii::PhysicalDevice> all = physicalDevices(instance_);
+    info_ = selectDevice(describeAll(all), selector);
+    physical_ = std::move(all[info_.index]);
+    queueFamily_ = computeFamily(physical_);
+    device_ = makeDevice(physical_, queueFamily_, info_);
+    queue_ = vk::raii::Queue(device_, queueFamily_, 0);
+    if (physical_.getQueueFamilyProperties()[queueFamily_].timestampValidBits > 0) {
+        timestampPeriod_ = static_cast<double>(physical_.getProperties().limits.timestampPeriod);
+    }
+}
+
+Device::~Device() = default;
+
+std::vector<std::string> Device::validationMessages() const {
+    const std::lock_guard lock(log_->mutex);
+    return log_->messages;
+}
+
+}  // namespace duolux

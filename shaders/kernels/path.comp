@@ -1,0 +1,392 @@
+// Gathering: paths from the camera carry a matrix of importance W per colour channel, whose rows are the two components
+// of the pixel. At a surface W E is collected; W O f_opaque goes on in a new direction, W T straight on.
+//
+// One invocation takes some samples of one pixel. Path rays and shadow rays share one traversal, which lanes leave and
+// enter as they finish and begin rays. All crossings along a ray are met in order: at each, emission and next-event
+// estimation are gathered, and one of them is chosen, in proportion to the importance it would carry, to scatter on.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+
+#include "shaders/shared/bvh_layout.h"
+#include "shaders/shared/path_layout.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint kLeaveTraversal = 6u;
+layout(constant_id = 2) const uint kLeaveNodes = 4u;
+layout(constant_id = 3) const uint kTransmittance = 2u;
+layout(constant_id = 4) const bool kSecondColumn = true;
+layout(constant_id = 5) const bool kInvisibleScatters = true;
+layout(constant_id = 6) const bool kVisibleScatters = true;
+layout(constant_id = 7) const bool kInvisibleCrosses = true;
+layout(constant_id = 8) const bool kVisibleCrosses = true;
+layout(constant_id = 9) const bool kOneReflectance = false;
+layout(constant_id = 10) const bool kSmoothNormals = true;
+layout(constant_id = 11) const uint kSampler = 0u;
+layout(constant_id = 12) const bool kHasLights = true;
+layout(constant_id = 13) const bool kEmitterTree = true;
+
+layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
+layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
+layout(binding = kBindingNormals) uniform usamplerBuffer normalTexels;
+layout(binding = kBindingMaterials) uniform usamplerBuffer materialTexels;
+layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
+layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
+layout(binding = kBindingPixels, scalar) readonly buffer PixelsBlock { uint pixels[]; };
+layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotResult results[]; };
+layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
+
+#include "shaders/lib/camera.glsl"
+#include "shaders/lib/film.glsl"
+#include "shaders/lib/lights.glsl"
+#include "shaders/lib/material.glsl"
+#include "shaders/lib/normals.glsl"
+#include "shaders/lib/sampler.glsl"
+#include "shaders/lib/traverse.glsl"
+
+uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
+uvec4 fetchTriangleTexel(uint index) { return texelFetch(triangleTexels, int(index)); }
+uvec4 fetchMaterialTexel(uint index) { return texelFetch(materialTexels, int(index)); }
+uvec4 fetchLightTexel(uint index) { return texelFetch(lightTexels, int(index)); }
+uvec4 fetchNormalTexel(uint index) { return texelFetch(normalTexels, int(index)); }
+
+const float kInfinity = 1e30;
+
+LightMatrix opaqueOf(uint material) {
+    DeviceLightMatrix m = params.opaque;
+    return kOneReflectance ? LightMatrix(m.m00, m.m01, m.m10, m.m11) : fetchOpaque(material);
+}
+
+LightMatrix transparentOf(uint material) {
+    DeviceLightMatrix m = params.transparent;
+    return kOneReflectance ? LightMatrix(m.m00, m.m01, m.m10, m.m11) : fetchTransparent(material);
+}
+
+LightMatrix multiply(LightMatrix a, LightMatrix b) {
+    return kSecondColumn ? lightMultiply(a, b) : lightMultiplyFirstColumn(a, b);
+}
+
+// Importance that no surface can pass on by scattering or straight through is known without a look at the surface.
+bool canScatter(LightMatrix w) {
+    return (kInvisibleScatters && maxComponent(w.m00 + w.m10) > 0.0) ||
+           (kVisibleScatters && maxComponent(w.m01 + w.m11) > 0.0);
+}
+
+bool canCross(LightMatrix w) {
+    return (kInvisibleCrosses && maxComponent(w.m00 + w.m10) > 0.0) ||
+           (kVisibleCrosses && maxComponent(w.m01 + w.m11) > 0.0);
+}
+
+// A path under way: the segment it is on.
+struct Path {
+    LightMatrix importance;  // W up to here on the segment, the transmittances of the surfaces crossed included
+    vec3 origin;
+    vec3 direction;
+    float t;             // the last surface crossed on the segment, and where: the walk goes on after it
+    uint primitive;
+    float bsdfPdf;       // density of the direction, per steradian
+    uint scatterings;    // events before the segment
+    uint crossings;      // on the segment
+    bool ended;
+};
+
+// Where a path may scatter. One vertex of a segment is kept, by weighted reservoir sampling.
+struct Vertex {
+    LightMatrix importance;  // W O, of the chosen vertex
+    Bsdf bsdf;
+    vec3 position;           // moved off the surface to the side of the path
+    vec3 geometricNormal;    // unit, to the side of the path
+    vec3 shadingNormal;      // the same side
+    float weight;            // of the chosen vertex
+    float weightSum;         // of all vertices of the segment
+};
+
+// A shadow ray under way.
+struct Shadow {
+    bool pending;
+    vec3 origin;
+    vec3 direction;
+    float distance;
+    float t;             // last surface crossed
+    uint primitive;
+    LightMatrix importance;  // W O f cos / pdf and what was crossed so far (kTransmittanceGeneral)
+    Light emission;          // of the emitter (kTransmittanceGeneral), or else the contribution if nothing is in between
+    uint scatterings;        // events on the whole path, for the statistics
+};
+
+// What one sample has gathered.
+struct Gathered {
+    Light light;
+    float lastBounce;
+    float previousBounce;
+};
+
+void gather(inout Gathered g, Light light, uint scatterings) {
+    g.light.invisible += light.invisible;
+    g.light.visible += light.visible;
+    vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
+    float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
+    g.lastBounce += scatterings == params.countedBounces ? mean : 0.0;
+    g.previousBounce += scatterings + 1u == params.countedBounces ? mean : 0.0;
+}
+
+Path cameraPath(uint pixel, vec2 u) {
+    vec2 position = vec2(float(int(pixel % params.width)), float(int(pixel / params.width))) + u;
+    Path path;
+    path.importance = lightIdentity();
+    path.origin = params.cameraPosition;
+    path.direction = cameraDirection(params, position);
+    path.t = 0.0;
+    path.primitive = kNoTriangle;
+    path.bsdfPdf = 0.0;
+    path.scatterings = 0u;
+    path.crossings = 0u;
+    path.ended = false;
+    return path;
+}
+
+// Next-event estimation at a vertex: sets up a shadow ray, or gathers at once where nothing can be in between.
+void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex, vec3 wo, vec2 u, uint scatterings) {
+    LightSample light = sampleLight(params.lightCount, u);
+    vec3 offset = light.position - vertex.position;
+    float side = dot(light.normal, offset) < 0.0 ? 1.0 : -1.0;
+    // To just in front of the emitter, which must not hide itself.
+    vec3 toLight = offset + light.normal * (side * light.positionError);
+    float distanceSquared = dot(toLight, toLight);
+    float distance = sqrt(distanceSquared);
+    vec3 direction = toLight / distance;
+    float cosAtLight = dot(light.normal, direction);
+    float cosAtVertex = dot(vertex.shadingNormal, direction);
+    Material material = fetchMaterial(light.material);
+    Light emission = materialEmission(material, cosAtLight < 0.0);
+
+    float pdf = pdfAreaToSolidAngle(material.lightPdfArea, distanceSquared, cosAtLight);
+    vec3 tangent, bitangent;
+    orthonormalBasis(vertex.shadingNormal, tangent, bitangent);
+    vec3 localWo = vec3(dot(tangent, wo), dot(bitangent, wo), dot(vertex.shadingNormal, wo));
+    vec3 localWi = vec3(dot(tangent, direction), dot(bitangent, direction), cosAtVertex);
+    float misWeight = balanceHeuristic(pdf, bsdfPdf(vertex.bsdf, localWo, localWi));
+    vec3 f = bsdfEvaluate(vertex.bsdf, localWo, localWi);
+    LightMatrix importance = lightScale(vertex.importance, f * (cosAtVertex * misWeight / pdf));
+    Light contribution = lightApply(importance, emission);
+    bool contributes = cosAtVertex > 0.0 && dot(vertex.geometricNormal, direction) > 0.0 && distance > 0.0 &&
+                       maxComponent(contribution.invisible + contribution.visible) > 0.0;
+    if (kTransmittance == kTransmittanceIdentity) {
+        if (contributes) gather(gathered, contribution, scatterings);
+    } else if (contributes) {
+        shadow.pending = true;
+        shadow.origin = vertex.position;
+        shadow.direction = direction;
+        shadow.distance = distance;
+        shadow.t = 0.0;
+        shadow.primitive = kNoTriangle;
+        shadow.scatterings = scatterings;
+        if (kTransmittance == kTransmittanceGeneral) {
+            shadow.importance = importance;
+            shadow.emission = emission;
+        } else {
+            shadow.emission = contribution;
+        }
+    }
+}
+
+// The path goes on from the chosen vertex of the segment, or ends.
+void endSegment(inout Path path, inout Vertex vertex, uint pixel, uint sampleIndex) {
+    float weightSum = vertex.weightSum;
+    vertex.weightSum = 0.0;
+    path.ended = true;
+    if (!(weightSum > 0.0)) return;
+    // Russian roulette on the importance that all vertices of the segment would carry, in units of the camera's. Where
+    // that grows (crossing surfaces that also scatter) every path survives and carries the growth.
+    float survival = path.scatterings >= 2u ? (weightSum < 1.0 ? min(weightSum, 0.95) : 1.0) : 1.0;
+    uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
+    if (sampleChoice(pixel, sampleIndex, choice, params.seed).y >= survival) return;
+
+    vec2 u = samplePair(kSampler, pixel, sampleIndex, sampleDimension(path.scatterings, 0u, kDimensionDirection),
+                        params.seed);
+    vec3 tangent, bitangent;
+    orthonormalBasis(vertex.shadingNormal, tangent, bitangent);
+    vec3 wo = -path.direction;
+    BsdfSample s = bsdfSample(
+        vertex.bsdf, vec3(dot(tangent, wo), dot(bitangent, wo), dot(vertex.shadingNormal, wo)), u);
+    vec3 direction = normalize(tangent * s.wi.x + bitangent * s.wi.y + vertex.shadingNormal * s.wi.z);
+    path.importance =
+        lightScale(vertex.importance, s.weight * (weightSum / (vertex.weight * survival)));
+    path.origin = vertex.position;
+    path.direction = direction;
+    path.t = 0.0;
+    path.primitive = kNoTriangle;
+    path.bsdfPdf = s.pdf;
+    path.scatterings += 1u;
+    path.crossings = 0u;
+    path.ended = !(s.pdf > 0.0 && dot(vertex.geometricNormal, direction) > 0.0);
+}
+
+bool onlyEmissionLeft(Path path) {
+    return path.scatterings >= params.bounces || !canScatter(path.importance);
+}
+
+// Without the second column all importance is on the first, but for the visible row of the camera's own segment.
+LightMatrix importanceOf(Path path) {
+    if (kSecondColumn) return path.importance;
+    float atCamera = path.scatterings + path.crossings == 0u ? 1.0 : 0.0;
+    return LightMatrix(path.importance.m00, vec3(0.0), path.importance.m10, vec3(atCamera));
+}
+
+// The path has met a surface: emission, next-event estimation, a candidate for scattering, and the crossing.
+void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout Gathered gathered, Traversal ray,
+                 Triangle tri, uint pixel, uint sampleIndex) {
+    uint materialIndex = tri.materialFlags & kMaterialMask;
+    Material material = fetchMaterial(materialIndex);
+    vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+    float cosine = dot(normal, path.direction);
+    bool front = cosine < 0.0;
+    vec3 facing = front ? normal : -normal;
+    LightMatrix w = importanceOf(path);
+
+    float pdfOfLight = pdfAreaToSolidAngle(material.lightPdfArea, ray.t * ray.t, cosine);
+    float misWeight = path.scatterings > 0u ? balanceHeuristic(path.bsdfPdf, pdfOfLight) : 1.0;
+    Light collected = lightApply(w, materialEmission(material, front));
+    gather(gathered, Light(collected.invisible * misWeight, collected.visible * misWeight), path.scatterings);
+
+    LightMatrix scattered = multiply(w, opaqueOf(materialIndex));
+    float weight = lightWeight(lightScale(scattered, bsdfAlbedo(material.bsdf, -path.direction)), params.rowWeight);
+    bool scatters = path.scatterings < params.bounces && materialScatters(material, front) && weight > 0.0;
+    if (scatters) {
+        Vertex here;
+        here.importance = scattered;
+        here.bsdf = material.bsdf;
+        here.geometricNormal = facing;
+        here.shadingNormal = facing;
+        if (kSmoothNormals && (tri.materialFlags & kTriangleSmooth) != 0u) {
+            vec3 smoothed = shadingNormal(ray.triangle, ray.barycentric);
+            here.shadingNormal = dot(smoothed, normal) * cosine > 0.0 ? -smoothed : smoothed;
+        }
+        here.position = pointOnTriangle(tri, ray.barycentric) + facing * pointError(tri);
+        here.weight = weight;
+        here.weightSum = vertex.weightSum + weight;
+        if (kHasLights) {
+            vec2 u = samplePair(kSampler, pixel, sampleIndex,
+                                sampleDimension(path.scatterings, path.crossings, kDimensionLight), params.seed);
+            connectToLight(shadow, gathered, here, -path.direction, u, path.scatterings + 1u);
+        }
+        bool chosen = true;
+        if (kTransmittance != kTransmittanceZero) {
+            uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
+            chosen = sampleChoice(pixel, sampleIndex, choice, params.seed).x * here.weightSum < weight;
+        }
+        if (chosen) {
+            vertex = here;
+        } else {
+            vertex.weightSum = here.weightSum;
+        }
+    }
+
+    bool passes = false;
+    if (kTransmittance != kTransmittanceZero && canCross(w)) {
+        LightMatrix through = multiply(w, transparentOf(materialIndex));
+        passes = maxComponent(through.m00 + through.m01 + through.m10 + through.m11) > 0.0;
+        path.importance = through;
+        path.t = ray.t;
+        path.primitive = ray.primitive;
+        path.crossings += 1u;
+    }
+    if (!passes) endSegment(path, vertex, pixel, sampleIndex);
+}
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= dispatch.slotCount) return;
+    uint pixel = pixels[dispatch.firstSlot + slot];
+    const bool ordered = kTransmittance != kTransmittanceZero;
+
+    FilmSum invisibleSum = filmZero();
+    FilmSum visibleSum = filmZero();
+    uint nonFinite = 0u, cameraRays = 0u, bounceRays = 0u, shadowRays = 0u, emitterRays = 0u;
+    float lastBounce = 0.0, previousBounce = 0.0;
+
+    uint sampleIndex = dispatch.firstSample;
+    uint endSample = dispatch.firstSample + dispatch.sampleCount;
+    Gathered gathered = Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0);
+    Vertex vertex;
+    vertex.weightSum = 0.0;
+    Shadow shadow;
+    shadow.pending = false;
+    Path path = cameraPath(pixel, samplePair(kSampler, pixel, sampleIndex, kDimensionPixel, params.seed));
+    Traversal ray = traversalStart(0u, path.origin, path.direction, 0.0, kNoTriangle, kInfinity, false);
+    cameraRays += 1u;
+
+    while (sampleIndex < endSample) {
+        traverse(ray, ordered, kLeaveTraversal, kLeaveNodes);
+        if (traversalAlive(ray)) continue;
+
+        bool found = ray.triangle != kNoTriangle;
+        Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
+        if (shadow.pending) {
+            if (kTransmittance == kTransmittanceGeneral) {
+                if (found) {
+                    shadow.importance = multiply(shadow.importance, transparentOf(tri.materialFlags & kMaterialMask));
+                    shadow.t = ray.t;
+                    shadow.primitive = ray.primitive;
+                    LightMatrix m = shadow.importance;
+                    shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
+                } else {
+                    gather(gathered, lightApply(shadow.importance, shadow.emission), shadow.scatterings);
+                    shadow.pending = false;
+                }
+            } else {
+                if (!found) gather(gathered, shadow.emission, shadow.scatterings);
+                shadow.pending = false;
+            }
+        } else if (found) {
+            meetSurface(path, vertex, shadow, gathered, ray, tri, pixel, sampleIndex);
+        } else {
+            endSegment(path, vertex, pixel, sampleIndex);
+        }
+
+        bool emissionOnly = onlyEmissionLeft(path) && path.scatterings + path.crossings > 0u;
+        if (emissionOnly && !kEmitterTree) path.ended = true;
+        if (path.ended && !shadow.pending) {
+            vec3 total = gathered.light.invisible + gathered.light.visible;
+            if (total.x + total.y + total.z < kInfinity) {
+                invisibleSum = filmAccumulate(invisibleSum, gathered.light.invisible, params.inverseQuantum);
+                visibleSum = filmAccumulate(visibleSum, gathered.light.visible, params.inverseQuantum);
+                lastBounce += gathered.lastBounce;
+                previousBounce += gathered.previousBounce;
+            } else {
+                nonFinite += 1u;
+            }
+            gathered = Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0);
+            sampleIndex += 1u;
+            path = cameraPath(pixel, samplePair(kSampler, pixel, sampleIndex, kDimensionPixel, params.seed));
+            emissionOnly = false;
+            cameraRays += sampleIndex < endSample ? 1u : 0u;
+        } else if (!shadow.pending) {
+            bounceRays += 1u;
+        }
+        shadowRays += shadow.pending ? 1u : 0u;
+
+        bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
+        if (inEmitterTree && !shadow.pending) emitterRays += 1u;
+        ray = traversalStart(inEmitterTree && !shadow.pending ? params.emitterRoot : 0u,
+                             shadow.pending ? shadow.origin : path.origin,
+                             shadow.pending ? shadow.direction : path.direction, shadow.pending ? shadow.t : path.t,
+                             shadow.pending ? shadow.primitive : path.primitive,
+                             shadow.pending ? shadow.distance : kInfinity, shadow.pending && !ordered);
+    }
+
+    SlotResult result;
+    result.invisible =
+        uint[6](invisibleSum.r.x, invisibleSum.r.y, invisibleSum.g.x, invisibleSum.g.y, invisibleSum.b.x, invisibleSum.b.y);
+    result.visible =
+        uint[6](visibleSum.r.x, visibleSum.r.y, visibleSum.g.x, visibleSum.g.y, visibleSum.b.x, visibleSum.b.y);
+    result.completed = sampleIndex - dispatch.firstSample;
+    result.nonFinite = nonFinite;
+    result.cameraRays = cameraRays;
+    result.bounceRays = bounceRays;
+    result.shadowRays = shadowRays;
+    result.emitterRays = emitterRays;
+    result.lastBounce = lastBounce;
+    result.previousBounce = previousBounce;
+    results[slot] = result;
+}

@@ -1,0 +1,34 @@
+// Exact accumulation: radiance rounded once to a multiple of a quantum, summed in 64-bit integers (low, high).
+#ifndef DUOLUX_LIB_FILM_GLSL
+#define DUOLUX_LIB_FILM_GLSL
+
+// One radiance value >= 0 in quanta. Values of 2^56 quanta and more are clamped there.
+uvec2 filmQuantise(float value, float inverseQuantum) {
+    float scaled = min(value * inverseQuantum, 72057594037927936.0);
+    // Below 2^24 there is a fraction to round; above, the float is an integer already.
+    scaled = scaled < 16777216.0 ? floor(scaled + 0.5) : scaled;
+    float high = floor(scaled * (1.0 / 4294967296.0));
+    return uvec2(uint(scaled - high * 4294967296.0), uint(high));
+}
+
+uvec2 filmAdd(uvec2 sum, uvec2 term) {
+    uint low = sum.x + term.x;
+    return uvec2(low, sum.y + term.y + (low < term.x ? 1u : 0u));
+}
+
+// Three channels of one component.
+struct FilmSum {
+    uvec2 r;
+    uvec2 g;
+    uvec2 b;
+};
+
+FilmSum filmZero() { return FilmSum(uvec2(0u), uvec2(0u), uvec2(0u)); }
+
+FilmSum filmAccumulate(FilmSum sum, vec3 radiance, float inverseQuantum) {
+    return FilmSum(filmAdd(sum.r, filmQuantise(radiance.r, inverseQuantum)),
+                   filmAdd(sum.g, filmQuantise(radiance.g, inverseQuantum)),
+                   filmAdd(sum.b, filmQuantise(radiance.b, inverseQuantum)));
+}
+
+#endif

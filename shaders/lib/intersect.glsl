@@ -1,0 +1,57 @@
+// Rays, triangles, and points on triangles.
+#ifndef DUOLUX_LIB_INTERSECT_GLSL
+#define DUOLUX_LIB_INTERSECT_GLSL
+
+#include "shaders/lib/warp.glsl"
+
+struct Triangle {
+    vec3 v0;
+    vec3 v1;
+    vec3 v2;
+    uint primitive;
+    uint materialFlags;
+};
+
+struct TriangleHit {
+    bool hit;
+    float t;         // distance in units of the direction's length
+    vec2 barycentric;  // of v1 and v2
+};
+
+// Watertight: a vertex is projected along the ray by arithmetic that depends on the vertex and the ray alone, and the
+// edge functions of the two triangles at an edge are exact negatives, so that a ray cannot pass between them (the
+// principle of Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, with an orthonormal
+// basis in place of the shear). Both sides are hit. A degenerate triangle is not.
+// `axisU`, `axisV` and `direction` are orthonormal.
+TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 axisU, vec3 axisV) {
+    vec3 a = tri.v0 - origin;
+    vec3 b = tri.v1 - origin;
+    vec3 c = tri.v2 - origin;
+    precise float ax = dot(a, axisU);
+    precise float ay = dot(a, axisV);
+    precise float bx = dot(b, axisU);
+    precise float by = dot(b, axisV);
+    precise float cx = dot(c, axisU);
+    precise float cy = dot(c, axisV);
+    precise float u = cx * by - cy * bx;
+    precise float v = ax * cy - ay * cx;
+    precise float w = bx * ay - by * ax;
+    float det = u + v + w;
+    float scale = 1.0 / det;
+    float t = (u * dot(a, direction) + v * dot(b, direction) + w * dot(c, direction)) * scale;
+    bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
+    return TriangleHit(inside && det != 0.0, t, vec2(v, w) * scale);
+}
+
+vec3 pointOnTriangle(Triangle tri, vec2 barycentric) {
+    return tri.v0 * (1.0 - barycentric.x - barycentric.y) + tri.v1 * barycentric.x + tri.v2 * barycentric.y;
+}
+
+// Bound on the rounding error of a point on a triangle with vertices of this size, and of the distance at which a ray
+// starting there meets a neighbouring coplanar triangle: a multiple of the float's unit roundoff 2^-24.
+float pointError(Triangle tri) {
+    vec3 largest = max(abs(tri.v0), max(abs(tri.v1), abs(tri.v2)));
+    return max(largest.x, max(largest.y, largest.z)) * (32.0 / 16777216.0);
+}
+
+#endif

@@ -1,0 +1,44 @@
+// The 2x2 algebra of vector-valued light, per colour channel (paper, eqs. 7-23). Component 0 is invisible, 1 visible.
+#ifndef DUOLUX_LIB_LIGHT_MATRIX_GLSL
+#define DUOLUX_LIB_LIGHT_MATRIX_GLSL
+
+// Entry ij, per channel, acts from component j on component i.
+struct LightMatrix {
+    vec3 m00;
+    vec3 m01;
+    vec3 m10;
+    vec3 m11;
+};
+
+// A column vector: radiance L, emission E.
+struct Light {
+    vec3 invisible;
+    vec3 visible;
+};
+
+LightMatrix lightIdentity() { return LightMatrix(vec3(1.0), vec3(0.0), vec3(0.0), vec3(1.0)); }
+
+LightMatrix lightMultiply(LightMatrix a, LightMatrix b) {
+    return LightMatrix(a.m00 * b.m00 + a.m01 * b.m10, a.m00 * b.m01 + a.m01 * b.m11,
+                       a.m10 * b.m00 + a.m11 * b.m10, a.m10 * b.m01 + a.m11 * b.m11);
+}
+
+// a * b where the second column of b is known to be zero, so that of the product is, too.
+LightMatrix lightMultiplyFirstColumn(LightMatrix a, LightMatrix b) {
+    return LightMatrix(a.m00 * b.m00 + a.m01 * b.m10, vec3(0.0), a.m10 * b.m00 + a.m11 * b.m10, vec3(0.0));
+}
+
+Light lightApply(LightMatrix a, Light l) {
+    return Light(a.m00 * l.invisible + a.m01 * l.visible, a.m10 * l.invisible + a.m11 * l.visible);
+}
+
+LightMatrix lightScale(LightMatrix a, vec3 s) { return LightMatrix(a.m00 * s, a.m01 * s, a.m10 * s, a.m11 * s); }
+
+float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// How much importance a matrix carries, its rows weighted by rowWeight: the largest channel.
+float lightWeight(LightMatrix a, vec2 rowWeight) {
+    return maxComponent((a.m00 + a.m01) * rowWeight.x + (a.m10 + a.m11) * rowWeight.y);
+}
+
+#endif

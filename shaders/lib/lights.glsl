@@ -1,0 +1,49 @@
+// Next-event estimation: picking a point on an emitter, and the densities that multiple importance sampling needs
+// (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2).
+// The kernel that includes this defines fetchLightTexel.
+#ifndef DUOLUX_LIB_LIGHTS_GLSL
+#define DUOLUX_LIB_LIGHTS_GLSL
+
+#include "shaders/lib/intersect.glsl"
+#include "shaders/lib/warp.glsl"
+#include "shaders/shared/path_layout.h"
+
+uvec4 fetchLightTexel(uint index);
+
+struct LightSample {
+    vec3 position;
+    vec3 normal;          // unit, of the front
+    uint material;
+    float positionError;
+};
+
+// A point with density DeviceMaterial.lightPdfArea: an emitting triangle by the alias table, then uniform on it.
+LightSample sampleLight(uint lightCount, vec2 u) {
+    float scaled = u.x * float(int(lightCount));
+    uint index = min(uint(scaled), lightCount - 1u);
+    float rest = scaled - float(int(index));
+    uvec4 entry = fetchLightTexel(index * kLightTexels + 3u);
+    float threshold = uintBitsToFloat(entry.x);
+    bool keep = rest < threshold;
+    index = keep ? index : entry.y;
+    // The rest of the random number is uniform again within its interval.
+    float remapped = keep ? rest / threshold : (rest - threshold) / (1.0 - threshold);
+    vec2 b = uniformTriangle(vec2(min(remapped, 0.99999994), u.y));
+
+    uvec4 t0 = fetchLightTexel(index * kLightTexels);
+    uvec4 t1 = fetchLightTexel(index * kLightTexels + 1u);
+    uvec4 t2 = fetchLightTexel(index * kLightTexels + 2u);
+    Triangle tri = Triangle(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), 0u, 0u);
+    vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+    return LightSample(pointOnTriangle(tri, b), normal, t0.w, uintBitsToFloat(t1.w));
+}
+
+// Density per steradian, at a point `distance` away, of picking a point with density pdfArea per unit area.
+float pdfAreaToSolidAngle(float pdfArea, float distanceSquared, float cosAtLight) {
+    return pdfArea * distanceSquared / max(abs(cosAtLight), 1e-12);
+}
+
+// Balance heuristic, of the strategy whose density is a.
+float balanceHeuristic(float a, float b) { return a > 0.0 ? a / (a + b) : 0.0; }
+
+#endif

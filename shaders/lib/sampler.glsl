@@ -1,0 +1,36 @@
+// The samples of a path. Each vertex draws pairs of numbers; a pair is named by (pixel, sample, dimension, seed).
+#ifndef DUOLUX_LIB_SAMPLER_GLSL
+#define DUOLUX_LIB_SAMPLER_GLSL
+
+#include "shaders/lib/rng.glsl"
+#include "shaders/lib/sobol.glsl"
+
+const uint kSamplerSobol = 0u;
+const uint kSamplerIndependent = 1u;
+
+// What a pair of numbers is for; with the vertex it makes the dimension.
+const uint kDimensionPixel = 0u;
+const uint kDimensionLight = 1u;
+const uint kDimensionDirection = 2u;
+const uint kDimensionChoice = 3u;
+
+// `scattering`: scattering events before the vertex; `crossing`: surfaces crossed since the last one.
+uint sampleDimension(uint scattering, uint crossing, uint purpose) {
+    return (scattering << 16u) + (crossing << 2u) + purpose;
+}
+
+// Two numbers in [0, 1).
+vec2 samplePair(uint kind, uint pixel, uint sampleIndex, uint dimension, uint seed) {
+    if (kind == kSamplerSobol) {
+        uvec4 key = pcg4d(uvec4(pixel, 0xffffffffu, dimension, seed));
+        return uniformFloat2(sobolPair(sampleIndex, key));
+    }
+    return uniformFloat2(pcg4d(uvec4(pixel, sampleIndex, dimension, seed)).xy);
+}
+
+// Two numbers in [0, 1) for choices that gain nothing from stratification.
+vec2 sampleChoice(uint pixel, uint sampleIndex, uint dimension, uint seed) {
+    return uniformFloat2(pcg4d(uvec4(pixel, sampleIndex, dimension, seed)).zw);
+}
+
+#endif

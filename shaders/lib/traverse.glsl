@@ -1,0 +1,193 @@
+// Traversal of the 8-wide quantised tree of shaders/shared/bvh_layout.h, written as a machine that can be left and
+// resumed: lanes of a subgroup that have found their hit return to be given new rays while the others go on
+// (Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009).
+//
+// The kernel that includes this defines fetchNodeTexel and fetchTriangleTexel, and the two vote constants.
+#ifndef DUOLUX_LIB_TRAVERSE_GLSL
+#define DUOLUX_LIB_TRAVERSE_GLSL
+
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+#include "shaders/lib/intersect.glsl"
+#include "shaders/shared/bvh_layout.h"
+
+uvec4 fetchNodeTexel(uint index);
+uvec4 fetchTriangleTexel(uint index);
+
+const uint kNoTriangle = 0xffffffffu;
+
+struct Traversal {
+    // The ray. Hits are looked for after (tMin, afterPrimitive) in the order of (distance, primitive).
+    vec3 origin;
+    vec3 direction;
+    vec3 inverse;
+    vec3 axisU;
+    vec3 axisV;
+    float tMin;
+    uint afterPrimitive;
+    bool anyHit;
+    uint octant;
+    // The nearest hit so far; triangle == kNoTriangle: none, and t is the largest distance.
+    float t;
+    uint triangle;
+    uint primitive;
+    vec2 barycentric;
+    // Position in the tree: a group of sibling nodes still to visit (bits 24..31 of groupMask by visiting order, bits
+    // 0..7 the slots that hold nodes), and triangles still to test.
+    uint groupBase;
+    uint groupMask;
+    uint triangleBase;
+    uint triangleMask;
+    int stackSize;
+    bool nodesLeft;
+};
+
+// The stack of groups. It belongs to the one traversal a lane has under way; a private global, because arrays in
+// function parameters are copied.
+uint stackBase[kMaxTreeDepth];
+uint stackMask[kMaxTreeDepth];
+
+Triangle fetchTriangle(uint index) {
+    uvec4 t0 = fetchTriangleTexel(index * kTriangleTexels);
+    uvec4 t1 = fetchTriangleTexel(index * kTriangleTexels + 1u);
+    uvec4 t2 = fetchTriangleTexel(index * kTriangleTexels + 2u);
+    return Triangle(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t0.w, t1.w);
+}
+
+// The inverse of a direction component, large and finite where it is 0.
+float safeInverse(float d) { return 1.0 / (abs(d) > 1e-20 ? d : (d < 0.0 ? -1e-20 : 1e-20)); }
+
+// Starts at the tree whose root is node `root`.
+Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterPrimitive, float tMax,
+                         bool anyHit) {
+    Traversal r;
+    r.origin = origin;
+    r.direction = direction;
+    r.inverse = vec3(safeInverse(direction.x), safeInverse(direction.y), safeInverse(direction.z));
+    orthonormalBasis(direction, r.axisU, r.axisV);
+    r.tMin = tMin;
+    r.afterPrimitive = afterPrimitive;
+    r.anyHit = anyHit;
+    r.octant = (r.inverse.x < 0.0 ? 0u : 4u) | (r.inverse.y < 0.0 ? 0u : 2u) | (r.inverse.z < 0.0 ? 0u : 1u);
+    r.t = tMax;
+    r.triangle = kNoTriangle;
+    r.primitive = kNoTriangle;
+    r.barycentric = vec2(0.0);
+    r.groupBase = root;
+    r.groupMask = 0x80000000u;
+    r.triangleBase = 0u;
+    r.triangleMask = 0u;
+    r.stackSize = 0;
+    r.nodesLeft = true;
+    return r;
+}
+
+bool traversalAlive(Traversal r) { return r.nodesLeft || r.triangleMask != 0u; }
+
+// Minimum and maximum on the bits as integers: the same as on floats as long as the result is not negative, without
+// the handling of NaN. In the slab test a negative result is only compared with 0.
+float bitsMin(float a, float b) { return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b))); }
+float bitsMax(float a, float b) { return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b))); }
+
+vec4 unpackBytes(uint x) {
+    return vec4(float(int(x & 255u)), float(int((x >> 8u) & 255u)), float(int((x >> 16u) & 255u)), float(int(x >> 24u)));
+}
+
+// Slab tests of four children. Returns bits: inner nodes from bit 24 in visiting order, triangles from bit 0.
+uint intersectFourChildren(Traversal r, vec3 scale, vec3 offset, uint meta, uint lowerX, uint lowerY, uint lowerZ,
+                           uint upperX, uint upperY, uint upperZ) {
+    vec4 nearX = unpackBytes(r.inverse.x < 0.0 ? upperX : lowerX) * scale.x + offset.x;
+    vec4 farX = unpackBytes(r.inverse.x < 0.0 ? lowerX : upperX) * scale.x + offset.x;
+    vec4 nearY = unpackBytes(r.inverse.y < 0.0 ? upperY : lowerY) * scale.y + offset.y;
+    vec4 farY = unpackBytes(r.inverse.y < 0.0 ? lowerY : upperY) * scale.y + offset.y;
+    vec4 nearZ = unpackBytes(r.inverse.z < 0.0 ? upperZ : lowerZ) * scale.z + offset.z;
+    vec4 farZ = unpackBytes(r.inverse.z < 0.0 ? lowerZ : upperZ) * scale.z + offset.z;
+
+    // An inner child's meta is 0x20 | 24 + slot: only then bits 3 and 4 of it are both set.
+    uint isInner = (meta & (meta << 1u)) & 0x10101010u;
+    uint innerBytes = (isInner >> 4u) * 255u;
+    uint bitIndices = (meta ^ ((r.octant * 0x01010101u) & innerBytes)) & 0x1f1f1f1fu;
+    uint childBits = (meta >> 5u) & 0x07070707u;
+
+    uint hits = 0u;
+    for (int i = 0; i < 4; i++) {
+        float near = bitsMax(bitsMax(nearX[i], nearY[i]), bitsMax(nearZ[i], r.tMin));
+        float far = bitsMin(bitsMin(farX[i], farY[i]), bitsMin(farZ[i], r.t));
+        uint bits = ((childBits >> (8 * i)) & 255u) << ((bitIndices >> (8 * i)) & 31u);
+        hits |= near <= far * 1.0000006 ? bits : 0u;  // the relative error of the slab distances
+    }
+    return hits;
+}
+
+// Visits the next node. Requires r.nodesLeft and no triangles left.
+void visitNode(inout Traversal r) {
+    uint bit = uint(findMSB(r.groupMask));
+    uint slot = (bit - 24u) ^ r.octant;
+    r.groupMask &= ~(1u << bit);
+    uint node = r.groupBase + uint(bitCount(r.groupMask & ((1u << slot) - 1u) & 255u));
+    // The rest of the group waits on the stack.
+    stackBase[r.stackSize] = r.groupBase;
+    stackMask[r.stackSize] = r.groupMask;
+    r.stackSize += r.groupMask > 0x00ffffffu ? 1 : 0;
+
+    uint texel = node * kNodeTexels;
+    uvec4 w0 = fetchNodeTexel(texel);
+    uvec4 w1 = fetchNodeTexel(texel + 1u);
+    uvec4 w2 = fetchNodeTexel(texel + 2u);
+    uvec4 w3 = fetchNodeTexel(texel + 3u);
+    uvec4 w4 = fetchNodeTexel(texel + 4u);
+    vec3 unit = vec3(uintBitsToFloat((w0.w & 255u) << 23u), uintBitsToFloat(((w0.w >> 8u) & 255u) << 23u),
+                     uintBitsToFloat(((w0.w >> 16u) & 255u) << 23u));
+    vec3 scale = unit * r.inverse;
+    vec3 offset = (uintBitsToFloat(w0.xyz) - r.origin) * r.inverse;
+    uint hits = intersectFourChildren(r, scale, offset, w1.z, w2.x, w2.z, w3.x, w3.z, w4.x, w4.z) |
+                intersectFourChildren(r, scale, offset, w1.w, w2.y, w2.w, w3.y, w3.w, w4.y, w4.w);
+    r.groupBase = w1.x;
+    r.groupMask = (hits & 0xff000000u) | (w0.w >> 24u);
+    r.triangleBase = w1.y;
+    r.triangleMask = hits & 0x00ffffffu;
+
+    bool none = r.groupMask <= 0x00ffffffu;
+    r.nodesLeft = !none || r.stackSize > 0;
+    r.stackSize = max(r.stackSize - (none ? 1 : 0), 0);
+    r.groupBase = none ? stackBase[r.stackSize] : r.groupBase;
+    r.groupMask = none ? stackMask[r.stackSize] : r.groupMask;
+}
+
+// Tests the next triangle. Requires r.triangleMask != 0.
+void testTriangle(inout Traversal r, bool ordered) {
+    uint index = r.triangleBase + uint(findLSB(r.triangleMask));
+    r.triangleMask &= r.triangleMask - 1u;
+    Triangle tri = fetchTriangle(index);
+    TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV);
+    bool accepted = h.hit && h.t < r.t && h.t > r.tMin;
+    if (ordered) {  // coincident surfaces are met one after the other
+        bool after = h.t > r.tMin || (h.t == r.tMin && tri.primitive > r.afterPrimitive);
+        bool nearer = h.t < r.t || (h.t == r.t && tri.primitive < r.primitive);
+        accepted = h.hit && after && nearer;
+    }
+    r.t = accepted ? h.t : r.t;
+    r.triangle = accepted ? index : r.triangle;
+    r.primitive = accepted ? tri.primitive : r.primitive;
+    r.barycentric = accepted ? h.barycentric : r.barycentric;
+}
+
+// Goes on until the ray is done or fewer than `leaveTraversal` lanes of the subgroup are under way. The node loop is
+// left for triangles when fewer than `leaveNodes` lanes want another node. `ordered`: see testTriangle.
+void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNodes) {
+    while (traversalAlive(r)) {
+        while (r.triangleMask == 0u && r.nodesLeft) {
+            visitNode(r);
+            if (subgroupBallotBitCount(subgroupBallot(r.triangleMask == 0u && r.nodesLeft)) < leaveNodes) break;
+        }
+        while (r.triangleMask != 0u) testTriangle(r, ordered);
+        if (r.anyHit && r.triangle != kNoTriangle) {
+            r.nodesLeft = false;
+            r.triangleMask = 0u;
+        }
+        if (subgroupBallotBitCount(subgroupBallot(traversalAlive(r))) < leaveTraversal) break;
+    }
+}
+
+#endif

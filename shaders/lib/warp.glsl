@@ -1,0 +1,30 @@
+// Mappings from the unit square, and frames.
+#ifndef DUOLUX_LIB_WARP_GLSL
+#define DUOLUX_LIB_WARP_GLSL
+
+const float kPi = 3.14159265358979;
+
+// Direction on the hemisphere around +z with pdf cos / pi (per steradian): Malley's method.
+vec3 cosineHemisphere(vec2 u) {
+    float r = sqrt(u.x);
+    float phi = 2.0 * kPi * u.y;
+    return vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
+}
+
+// Barycentric coordinates (of the second and third vertex), uniform by area: Heitz, "A Low-Distortion Map Between
+// Triangle and Square", 2019.
+vec2 uniformTriangle(vec2 u) {
+    vec2 b = u.y > u.x ? vec2(u.x * 0.5, u.y - u.x * 0.5) : vec2(u.x - u.y * 0.5, u.y * 0.5);
+    return b;
+}
+
+// Orthonormal vectors around a unit vector: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+void orthonormalBasis(vec3 n, out vec3 tangent, out vec3 bitangent) {
+    float s = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    tangent = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    bitangent = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
+#endif

@@ -1,0 +1,136 @@
+// Parameters, bindings and records of the path-tracing kernel, shared by C++ and GLSL (scalar block layout).
+#ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
+#define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
+
+#include "shaders/shared/types.h"
+
+DUOLUX_BEGIN
+
+// Descriptor bindings, all in set 0.
+DUOLUX_CONST uint kBindingNodes = 0u;       // texels: WideNode
+DUOLUX_CONST uint kBindingTriangles = 1u;   // texels: DeviceTriangle
+DUOLUX_CONST uint kBindingNormals = 2u;     // texels: DeviceNormals
+DUOLUX_CONST uint kBindingMaterials = 3u;   // texels: DeviceMaterial
+DUOLUX_CONST uint kBindingLights = 4u;      // texels: DeviceLight
+DUOLUX_CONST uint kBindingParams = 5u;      // uniform: PathParams
+DUOLUX_CONST uint kBindingPixels = 6u;      // storage: uint, pixel index of each slot
+DUOLUX_CONST uint kBindingResults = 7u;     // storage: SlotResult
+
+// Specialisation constants.
+DUOLUX_CONST uint kSpecWorkgroupSize = 0u;
+DUOLUX_CONST uint kSpecLeaveTraversal = 1u;   // leave the traversal when fewer lanes of a subgroup are alive
+DUOLUX_CONST uint kSpecLeaveNodes = 2u;       // leave the node loop when fewer lanes want nodes
+DUOLUX_CONST uint kSpecTransmittance = 3u;    // one of the kTransmittance... below
+DUOLUX_CONST uint kSpecSecondColumn = 4u;     // some O or T has an entry m01 or m11: visible light scatters or passes on
+DUOLUX_CONST uint kSpecInvisibleScatters = 5u;  // some O has m00 or m01: importance for invisible light scatters on
+DUOLUX_CONST uint kSpecVisibleScatters = 6u;    // some O has m10 or m11
+DUOLUX_CONST uint kSpecInvisibleCrosses = 7u;   // some T has m00 or m01
+DUOLUX_CONST uint kSpecVisibleCrosses = 8u;     // some T has m10 or m11
+DUOLUX_CONST uint kSpecOneReflectance = 9u;     // all materials share PathParams.opaque and .transparent
+DUOLUX_CONST uint kSpecSmoothNormals = 10u;
+DUOLUX_CONST uint kSpecSampler = 11u;           // 0: Owen-scrambled Sobol, 1: independent
+DUOLUX_CONST uint kSpecHasLights = 12u;         // there is an emitter that next-event estimation can sample
+DUOLUX_CONST uint kSpecSampleEmitterTree = 13u; // there is a tree of emitters
+
+// What a segment between two points does to light, scene-wide.
+DUOLUX_CONST uint kTransmittanceZero = 0u;      // every T is 0: any surface hides what is behind it
+DUOLUX_CONST uint kTransmittanceIdentity = 1u;  // every T passes the components that carry importance unchanged
+DUOLUX_CONST uint kTransmittanceGeneral = 2u;   // a product of 2x2 matrices, in order
+
+// LightMatrix: F_ij per channel, acting from component j on component i; 0 = invisible, 1 = visible.
+struct DeviceLightMatrix {
+    vec3 m00;
+    vec3 m01;
+    vec3 m10;
+    vec3 m11;
+};
+
+struct PathParams {
+    vec3 cameraPosition;
+    uint width;
+    vec3 cameraForward;  // unit
+    uint height;
+    vec3 cameraRight;    // half the width of the image plane at distance 1
+    uint seed;
+    vec3 cameraUp;       // half its height
+    uint bounces;        // largest number of scattering events on a path
+    DeviceLightMatrix opaque;
+    DeviceLightMatrix transparent;
+    vec2 rowWeight;      // how much the components (invisible, visible) of a pixel count when work is distributed; sum 1
+    vec2 display;        // the row d of eq. 8
+    float inverseQuantum;
+    uint lightCount;
+    uint emitterRoot;    // node index of the root of the tree over emitters
+    uint countedBounces; // the scene's bounce limit, whose last two terms are reported
+};
+
+struct DispatchParams {
+    uint firstSlot;
+    uint slotCount;
+    uint firstSample;
+    uint sampleCount;
+};
+
+// Sums over the samples of one slot (pixel) in one dispatch. 64-bit two's complement numbers as (low, high).
+struct SlotResult {
+    uint invisible[6];
+    uint visible[6];
+    uint completed;       // samples; fewer than asked for if the driver cut the kernel's loops short
+    uint nonFinite;       // samples dropped because they were not finite
+    uint cameraRays;
+    uint bounceRays;
+    uint shadowRays;
+    uint emitterRays;
+    float lastBounce;     // displayed radiance (mean of channels) with PathParams.countedBounces scattering events
+    float previousBounce; // with one fewer
+};
+
+// Records fetched as texels of 4 x uint32.
+DUOLUX_CONST uint kNormalTexels = 1u;    // three octahedral 2 x snorm16 unit vectors, one per vertex
+DUOLUX_CONST uint kMaterialTexels = 11u;
+DUOLUX_CONST uint kLightTexels = 4u;
+
+DUOLUX_CONST uint kMaterialTwoSided = 1u;          // f_opaque acts on both sides
+DUOLUX_CONST uint kMaterialEmitsFront = 2u;
+DUOLUX_CONST uint kMaterialEmitsBack = 4u;
+
+#ifdef __cplusplus
+static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
+static_assert(offsetof(PathParams, opaque) == 64 && offsetof(PathParams, rowWeight) == 160);
+static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 192);
+
+struct DeviceMaterial {
+    vec3 diffuse;
+    uint flags;
+    vec3 invisibleEmission;
+    float lightPdfArea;  // density per unit area with which next-event estimation picks a point of this emitter, m^-2
+    vec3 visibleEmission;
+    float padding;
+    vec4 opaque[4];       // m00 m01 m10 m11 in xyz
+    vec4 transparent[4];
+};
+static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16);
+
+struct DeviceNormals {
+    uint octahedral[3];
+    uint unused;
+};
+static_assert(sizeof(DeviceNormals) == kNormalTexels * 16);
+
+// An emitting triangle with its entry in the alias table (Walker 1974; Vose 1991).
+struct DeviceLight {
+    vec3 v0;
+    uint material;
+    vec3 v1;
+    float positionError;  // bound on the rounding error of a point on the triangle, as for hits
+    vec3 v2;
+    uint unused;
+    float threshold;      // keep this light with this probability,
+    uint alias;           // else take that one
+    uint padding[2];
+};
+static_assert(sizeof(DeviceLight) == kLightTexels * 16);
+#endif
+
+DUOLUX_END
+#endif
