@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/app/commands.h"
+#include "host/scene/energy.h"
+#include "host/scene/load.h"
+
+namespace duolux {
+
+namespace {
+
+std::string toText(const glm::dvec3& v) {
+    return fmt::format("{:.6g}, {:.6g}, {:.6g}", v.x, v.y, v.z);
+}
+
+/// One number if the channels agree.
+std::string colour(const glm::dvec3& c, int digits = 4) {
+    if (c.x == c.y && c.y == c.z) return fmt::format("{:.{}g}", c.x, digits);
+    return fmt::format("{0:.{3}g}, {1:.{3}g}, {2:.{3}g}", c.x, c.y, c.z, digits);
+}
+
+std::string withSeparators(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t at = digits.size(); at > 3; at -= 3)
+        digits.insert(at - 3, ",");
+    return digits;
+}
+
+std::string bytes(std::size_t count) {
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    const auto size = static_cast<double>(count);
+    return size < 0.1 * kMebibyte ? fmt::format("{:.1f} KiB", size / 1024.0)
+                                  : fmt::format("{:.1f} MiB", size / kMebibyte);
+}
+
+void printField(std::string_view name, std::string_view value) {
+    fmt::print("{:<13}{}\n", name, value);
+}
+
+/// Columns as wide as their widest cell. The first row is the heading.
+void printTable(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const auto& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+            widths[i] = std::max(widths[i], row[i].size());
+    }
+    for (const auto& row : rows) {
+        std::string line = " ";
+        for (std::size_t i = 0; i < row.size(); ++i)
+            line += fmt::format(" {:<{}} ", row[i], widths[i]);
+        line.erase(line.find_last_not_of(' ') + 1);
+        fmt::print("{}\n", line);
+    }
+}
+
+std::size_t memoryOf(const Geometry& geometry) {
+    return geometry.positions.size() * sizeof(glm::vec3) + geometry.triangles.size() * sizeof(glm::uvec3) +
+           geometry.materials.size() * sizeof(std::uint32_t) + geometry.normals.size() * sizeof(glm::vec3) +
+           geometry.normalIndices.size() * sizeof(glm::uvec3);
+}
+
+std::string describeEmission(const Emission& emission) {
+    if (!emission.any()) return "-";
+    return fmt::format("inv {}; vis {}{}", colour(emission.invisible), colour(emission.visible),
+                       emission.sides == Sides::kBoth ? "; both sides" : "");
+}
+
+void printGeometry(const Scene& scene) {
+    const Geometry& geometry = scene.geometry;
+    const Bounds bounds = boundsOf(geometry);
+    printField("triangles", withSeparators(geometry.triangles.size()));
+    printField("vertices", withSeparators(geometry.positions.size()));
+    if (!geometry.normals.empty()) {
+        const auto smooth = std::count_if(geometry.normalIndices.begin(), geometry.normalIndices.end(),
+                                          [](const glm::uvec3& n) { return n.x != Geometry::kNoNormal; });
+        printField("smooth", fmt::format("{} triangles have shading normals",
+                                         withSeparators(static_cast<std::uint64_t>(smooth))));
+    }
+    printField("bounds", fmt::format("{}  to  {}", toText(bounds.lower), toText(bounds.upper)));
+    printField("memory", fmt::format("{} of geometry on the host", bytes(memoryOf(geometry))));
+}
+
+void printView(const Scene& scene) {
+    const Camera& camera = scene.camera;
+    printField("camera", fmt::format("at {}  towards {}  up {}  vfov {:.6g}", toText(camera.position),
+                                     toText(camera.target), toText(camera.up), camera.vfov));
+    printField("picture",
+               fmt::format("{}x{}, {} spp, {} bounces, seed {}", scene.render.width, scene.render.height,
+                           scene.render.spp, scene.render.bounces, scene.render.seed));
+    printField("display", fmt::format("[{:g}, {:g}]", scene.display.x, scene.display.y));
+    printField("reflectance", describeReflectance(scene.reflectance));
+}
+
+void printLights(const Scene& scene) {
+    const EmitterSummary lights = summariseEmitters(scene);
+    printField("lights", fmt::format("{} emitting triangle{}, area {:.6g}", withSeparators(lights.triangles),
+                                     lights.triangles == 1 ? "" : "s", lights.area));
+    printField("power", fmt::format("invisible {}; visible {} (W in scene units)",
+                                    colour(lights.invisiblePower, 6), colour(lights.visiblePower, 6)));
+}
+
+void printMaterials(const Scene& scene) {
+    std::vector<std::uint64_t> triangles(scene.materials.size(), 0);
+    for (const std::uint32_t material : scene.geometry.materials)
+        ++triangles[material];
+    std::vector<std::vector<std::string>> rows{
+        {"material", "triangles", "diffuse", "sides", "emission", "reflectance"}};
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        rows.push_back({material.name, withSeparators(triangles[i]), colour(material.diffuse),
+                        material.sides == Sides::kBoth ? "both" : "front",
+                        describeEmission(material.emission),
+                        material.reflectance ? describeReflectance(*material.reflectance) : "the scene's"});
+    }
+    fmt::print("\n");
+    printTable(rows);
+}
+
+/// Which material, in which channel, returns the most of the light that meets it.
+void printEnergy(const Scene& scene) {
+    constexpr std::array<std::string_view, 3> kChannels{"red", "green", "blue"};
+    float largest = -1.0f;
+    std::string where;
+    bool mayGrow = false;
+    for (const Material& material : scene.materials) {
+        const MaterialEnergy energy = materialEnergy(scene.reflectanceOf(material), material.diffuse);
+        for (int i = 0; i < 3; ++i) {
+            if (energy.factor[i] <= largest) continue;
+            largest = energy.factor[i];
+            where = fmt::format("\"{}\" in {}", material.name, kChannels[static_cast<std::size_t>(i)]);
+        }
+        mayGrow = mayGrow || energy.mayGrow();
+    }
+    fmt::print("\n");
+    printField("energy", fmt::format("mean albedo {} by area", colour(meanAlbedo(scene))));
+    printField("",
+               fmt::format("one interaction returns at most {:.4g} of what arrives ({})", largest, where));
+    if (mayGrow) {
+        printField("", "that is as much as arrives or more: the series of bounces may grow without end,");
+        printField("", fmt::format("and the picture is that of a stated number of bounces (here {})",
+                                   scene.render.bounces));
+    }
+}
+
+void printInfo(const Scene& scene) {
+    printField("scene", scene.source.string());
+    printField("hash", scene.hash);
+    printGeometry(scene);
+    printView(scene);
+    printLights(scene);
+    printMaterials(scene);
+    printEnergy(scene);
+    if (!scene.warnings.empty()) fmt::print("\n");
+    for (const std::string& warning : scene.warnings)
+        printField("warning", warning);
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("info", "Show what a scene file holds: triangles, materials, lights, energy");
+    auto path = std::make_shared<std::string>();
+    command->add_option("SCENE", *path, "An .obj or .json scene")->required();
+    command->callback([path] { printInfo(loadScene(*path)); });
+}
+
+}  // namespace duolux

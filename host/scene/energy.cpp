@@ -1,0 +1,73 @@
+#include "host/scene/energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace duolux {
+
+namespace {
+
+/// Larger eigenvalue of a non-negative 2x2 matrix; real, as the off-diagonal product is not negative.
+float spectralRadius(float m00, float m01, float m10, float m11) {
+    const float difference = m00 - m11;
+    return 0.5f * (m00 + m11 + std::sqrt(difference * difference + 4.0f * m01 * m10));
+}
+
+double areaOf(const Geometry& geometry, const glm::uvec3& triangle) {
+    const glm::dvec3 a(geometry.positions[triangle.x]);
+    const glm::dvec3 b(geometry.positions[triangle.y]);
+    const glm::dvec3 c(geometry.positions[triangle.z]);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
+
+}  // namespace
+
+bool MaterialEnergy::mayGrow() const {
+    return recurs && glm::any(glm::greaterThanEqual(factor, glm::vec3(1.0f)));
+}
+
+MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo) {
+    MaterialEnergy energy;
+    const LightMatrix& o = reflectance.opaque;
+    const LightMatrix& t = reflectance.transparent;
+    for (int i = 0; i < 3; ++i) {
+        const float o00 = albedo[i] * o.m00[i], o01 = albedo[i] * o.m01[i];
+        const float o10 = albedo[i] * o.m10[i], o11 = albedo[i] * o.m11[i];
+        const float m01 = o01 + t.m01[i], m10 = o10 + t.m10[i];
+        energy.factor[i] = spectralRadius(o00 + t.m00[i], m01, m10, o11 + t.m11[i]);
+        // A scattering event recurs if it lies on a cycle of the two components.
+        energy.recurs = energy.recurs || o00 > 0.0f || o11 > 0.0f || o01 * m10 > 0.0f || o10 * m01 > 0.0f;
+    }
+    return energy;
+}
+
+EmitterSummary summariseEmitters(const Scene& scene) {
+    EmitterSummary summary;
+    const Geometry& geometry = scene.geometry;
+    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+        const Emission& emission = scene.materials[geometry.materials[i]].emission;
+        if (!emission.any()) continue;
+        const double area = areaOf(geometry, geometry.triangles[i]);
+        const double sides = emission.sides == Sides::kBoth ? 2.0 : 1.0;
+        ++summary.triangles;
+        summary.area += area;
+        summary.invisiblePower += sides * glm::pi<double>() * area * glm::dvec3(emission.invisible);
+        summary.visiblePower += sides * glm::pi<double>() * area * glm::dvec3(emission.visible);
+    }
+    return summary;
+}
+
+glm::dvec3 meanAlbedo(const Scene& scene) {
+    glm::dvec3 sum(0.0);
+    double totalArea = 0.0;
+    const Geometry& geometry = scene.geometry;
+    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+        const double area = areaOf(geometry, geometry.triangles[i]);
+        sum += area * glm::dvec3(scene.materials[geometry.materials[i]].diffuse);
+        totalArea += area;
+    }
+    return sum / totalArea;
+}
+
+}  // namespace duolux

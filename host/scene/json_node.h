@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace duolux {
+
+/// A value of a JSON document together with where it is, so that every complaint about it names the file and
+/// the path, what is there and what would be right. All members but the trivial throw InputError.
+class JsonNode {
+  public:
+    /// `value` and `file` must outlive the node.
+    JsonNode(const nlohmann::json& value, const std::filesystem::path& file) : JsonNode(value, file, "") {}
+
+    const std::string& path() const { return path_; }
+    const std::filesystem::path& file() const { return *file_; }
+
+    /// It is an object whose keys are all among these.
+    void expectKeys(std::initializer_list<std::string_view> keys) const;
+    /// The members of an object, in the order of their names.
+    std::vector<std::pair<std::string, JsonNode>> members() const;
+    std::optional<JsonNode> find(std::string_view key) const;
+    /// `remedy` is used if there is no such member.
+    JsonNode require(std::string_view key, std::string_view remedy) const;
+
+    /// The elements of an array, of exactly `count` if given.
+    std::vector<JsonNode> elements(std::string_view remedy,
+                                   std::optional<std::size_t> count = std::nullopt) const;
+
+    bool isArray() const;
+    /// A finite number in [low, high].
+    float number(float low, float high, std::string_view remedy) const;
+    /// A whole number in [low, high].
+    std::uint32_t integer(std::uint32_t low, std::uint32_t high) const;
+    const std::string& text(std::string_view remedy) const;
+    /// Index of one of the names.
+    std::size_t choice(std::span<const std::string> names) const;
+    /// Three numbers in [low, high].
+    glm::vec3 vector(float low, float high, std::string_view remedy) const;
+    /// Three numbers in [low, high], or one for all channels.
+    glm::vec3 colour(float low, float high, std::string_view remedy) const;
+
+    [[noreturn]] void fail(std::string_view problem, std::string_view remedy) const;
+    /// "is VALUE; REMEDY".
+    [[noreturn]] void failValue(std::string_view remedy) const;
+
+  private:
+    JsonNode(const nlohmann::json& value, const std::filesystem::path& file, std::string path)
+        : value_(&value), file_(&file), path_(std::move(path)) {}
+
+    void expectObject() const;
+    JsonNode member(std::string_view key, const nlohmann::json& value) const;
+    /// A short account of the value.
+    std::string describe() const;
+
+    const nlohmann::json* value_;
+    const std::filesystem::path* file_;
+    std::string path_;
+};
+
+}  // namespace duolux

@@ -1,0 +1,230 @@
+#include "host/scene/json_scene.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "host/scene/compose.h"
+#include "host/scene/frame_camera.h"
+#include "host/scene/json_node.h"
+#include "host/scene/json_surface.h"
+#include "host/scene/json_text.h"
+#include "host/scene/mesh.h"
+#include "host/scene/nearest_name.h"
+
+namespace duolux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string& pointRemedy() {
+    static const std::string kRemedy =
+        fmt::format("expected [x, y, z], at most {:g} in magnitude", kLargestCoordinate);
+    return kRemedy;
+}
+
+glm::vec3 readPoint(const JsonNode& node) {
+    return node.vector(-kLargestCoordinate, kLargestCoordinate, pointRemedy());
+}
+
+/// The sine of the angle between two vectors, 0 if one of them is 0.
+double sineBetween(const glm::vec3& a, const glm::vec3& b) {
+    const double lengths = glm::length(glm::dvec3(a)) * glm::length(glm::dvec3(b));
+    return lengths > 0.0 ? glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b))) / lengths : 0.0;
+}
+
+Camera readCamera(const JsonNode& node) {
+    constexpr double kSmallestSine = 1e-4;
+    node.expectKeys({"position", "target", "up", "vfov"});
+    Camera camera;
+    camera.position = readPoint(node.require("position", pointRemedy()));
+    camera.target = readPoint(node.require("target", pointRemedy()));
+    const std::optional<JsonNode> up = node.find("up");
+    if (up) camera.up = readPoint(*up);
+    if (const auto vfov = node.find("vfov")) {
+        const char* const remedy = "expected the full vertical angle in degrees, between 0 and 180";
+        camera.vfov = vfov->number(0.0f, 180.0f, remedy);
+        if (camera.vfov <= 0.0f || camera.vfov >= 180.0f) vfov->failValue(remedy);
+    }
+    if (camera.position == camera.target) {
+        node.fail("position and target are the same", "expected a target to look at");
+    }
+    if (sineBetween(camera.target - camera.position, camera.up) < kSmallestSine) {
+        const std::string problem =
+            camera.up == glm::vec3(0.0f) ? "up has no direction" : "up is along the view";
+        node.fail(up ? problem : "up is missing, and (0, 1, 0) is along the view",
+                  "expected a direction across the line from position to target");
+    }
+    return camera;
+}
+
+void readFilm(const JsonNode& node, RenderSettings& render) {
+    constexpr std::uint32_t kLargestSize = 16384;
+    node.expectKeys({"width", "height"});
+    if (const auto width = node.find("width")) render.width = width->integer(1, kLargestSize);
+    if (const auto height = node.find("height")) render.height = height->integer(1, kLargestSize);
+}
+
+void readRender(const JsonNode& node, RenderSettings& render) {
+    node.expectKeys({"spp", "bounces", "seed", "sampler"});
+    if (const auto spp = node.find("spp")) render.spp = spp->integer(1, 1u << 24);
+    if (const auto bounces = node.find("bounces")) render.bounces = bounces->integer(0, 65535);
+    if (const auto seed = node.find("seed")) {
+        render.seed = seed->integer(0, std::numeric_limits<std::uint32_t>::max());
+    }
+    if (const auto sampler = node.find("sampler")) {
+        static const std::array<std::string, 2> kNames{"sobol", "independent"};
+        render.sampler = sampler->choice(kNames) == 0 ? Sampler::kSobol : Sampler::kIndependent;
+    }
+}
+
+glm::vec2 readDisplay(const JsonNode& node) {
+    constexpr float kLargest = 1e6f;
+    const char* const remedy = "expected [invisible, visible], the two weights of the displayed radiance";
+    const std::vector<JsonNode> row = node.elements(remedy, 2);
+    return {row[0].number(-kLargest, kLargest, remedy), row[1].number(-kLargest, kLargest, remedy)};
+}
+
+glm::dmat4 readTransform(const JsonNode& node) {
+    const char* const remedy = "expected 16 numbers, a 4x4 matrix row by row";
+    const std::vector<JsonNode> entries = node.elements(remedy, 16);
+    glm::dmat4 matrix;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            const auto entry = static_cast<std::size_t>(4 * row + column);
+            matrix[column][row] = entries[entry].number(-kLargestCoordinate, kLargestCoordinate, remedy);
+        }
+    }
+    if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]) !=
+        glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+        node.fail("the last row is not 0, 0, 0, 1", "expected an affine transform, object to world");
+    }
+    if (!isRegular(glm::dmat3(matrix))) {
+        node.fail("is singular", "expected a transform that keeps solids solid");
+    }
+    return matrix;
+}
+
+/// Reads each mesh file once, however many objects use it.
+class MeshCache {
+  public:
+    Mesh take(const fs::path& path) {
+        const auto [entry, isNew] = meshes_.try_emplace(path);
+        if (isNew) {
+            entry->second = loadObj(path);
+        } else {
+            entry->second.warnings.clear();
+        }
+        return entry->second;
+    }
+
+  private:
+    std::map<fs::path, Mesh> meshes_;
+};
+
+fs::path readMeshPath(const JsonNode& node) {
+    const char* const remedy = "expected the path of an .obj file, relative to the scene file";
+    const fs::path path = node.text(remedy);
+    if (path.extension() != ".obj" && path.extension() != ".OBJ") node.failValue(remedy);
+    const fs::path file = node.file().parent_path() / path;
+    std::error_code ec;
+    if (!fs::is_regular_file(file, ec)) node.fail(fmt::format("there is no file {}", file.string()), remedy);
+    return file;
+}
+
+void readObjects(const JsonNode& node, Scene& scene) {
+    const std::vector<JsonNode> objects = node.elements("expected an array of objects");
+    MeshCache cache;
+    for (const JsonNode& object : objects) {
+        object.expectKeys({"mesh", "transform"});
+        const fs::path path = readMeshPath(object.require("mesh", "expected the path of an .obj file"));
+        const std::optional<JsonNode> transform = object.find("transform");
+        const glm::dmat4 matrix = transform ? readTransform(*transform) : glm::dmat4(1.0);
+        Mesh mesh = objects.size() == 1 ? loadObj(path) : cache.take(path);
+        if (transform && !transformGeometry(mesh.geometry, matrix)) {
+            transform->fail(
+                "moves the mesh out of range",
+                fmt::format("expected coordinates of at most {:g} in magnitude", kLargestCoordinate));
+        }
+        appendMesh(scene, std::move(mesh));
+    }
+}
+
+void readMaterials(const JsonNode& node, Scene& scene) {
+    for (const auto& [name, overrides] : node.members()) {
+        bool found = false;
+        for (Material& material : scene.materials) {
+            if (material.name != name) continue;
+            readMaterial(overrides, material);
+            found = true;
+        }
+        if (found) continue;
+        std::set<std::string> names;
+        for (const Material& material : scene.materials)
+            names.insert(material.name);
+        const std::vector<std::string> known(names.begin(), names.end());
+        overrides.fail("no mesh has a material of this name", suggestName(name, known));
+    }
+}
+
+void readLight(const JsonNode& node, Scene& scene) {
+    constexpr double kSmallestSine = 1e-6;
+    node.expectKeys({"type", "origin", "edge1", "edge2", "emission", "reflectance"});
+    static const std::array<std::string, 1> kTypes{"rectangle"};
+    node.require("type", "expected \"rectangle\"").choice(kTypes);
+    const Rectangle rectangle{readPoint(node.require("origin", pointRemedy())),
+                              readPoint(node.require("edge1", pointRemedy())),
+                              readPoint(node.require("edge2", pointRemedy()))};
+    if (sineBetween(rectangle.edge1, rectangle.edge2) < kSmallestSine) {
+        node.fail("edge1 and edge2 span no area", "expected two directions across each other");
+    }
+    Material material;
+    material.name = node.path();
+    material.diffuse = glm::vec3(0.0f);
+    readEmission(node.require("emission", R"(expected {"invisible": c, "visible": c})"), material.emission);
+    if (const auto reflectance = node.find("reflectance"))
+        material.reflectance = readReflectance(*reflectance);
+    appendRectangle(scene, rectangle, material);
+}
+
+}  // namespace
+
+JsonScene readJsonScene(const fs::path& path) {
+    const nlohmann::json document = parseJsonFile(path);
+    const JsonNode root(document, path);
+    root.expectKeys(
+        {"duolux", "camera", "film", "render", "display", "reflectance", "objects", "materials", "lights"});
+    root.require("duolux", "expected \"duolux\": 1, the version of the format").integer(1, 1);
+
+    Scene scene;
+    scene.source = path;
+    const auto camera = root.find("camera");
+    if (camera) scene.camera = readCamera(*camera);
+    if (const auto film = root.find("film")) readFilm(*film, scene.render);
+    if (const auto render = root.find("render")) readRender(*render, scene.render);
+    if (const auto display = root.find("display")) scene.display = readDisplay(*display);
+    const auto reflectance = root.find("reflectance");
+    scene.reflectance = reflectance ? readReflectance(*reflectance) : *presetReflectance("global");
+    if (const auto objects = root.find("objects")) readObjects(*objects, scene);
+    if (const auto materials = root.find("materials")) readMaterials(*materials, scene);
+    const bool hasMeshes = !scene.geometry.triangles.empty();
+    if (!camera && hasMeshes)
+        scene.camera = frameCamera(scene);  // a luminaire given apart may be out of the picture
+    const auto lights = root.find("lights");
+    if (lights) {
+        for (const JsonNode& light : lights->elements("expected an array of lights"))
+            readLight(light, scene);
+    }
+    if (scene.geometry.triangles.empty()) {
+        root.fail("has no triangles with area", "expected \"objects\" with meshes, or \"lights\"");
+    }
+    if (!camera && !hasMeshes) scene.camera = frameCamera(scene);
+    return {std::move(scene), lights.has_value()};
+}
+
+}  // namespace duolux

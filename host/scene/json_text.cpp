@@ -1,0 +1,116 @@
+#include "host/scene/json_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/scene/source_text.h"
+
+namespace duolux {
+
+namespace {
+
+using nlohmann::json;
+
+/// Follows the parser through the document: where it is, and which keys each open object has had.
+class KeyWatch {
+  public:
+    explicit KeyWatch(std::string file) : file_(std::move(file)) {}
+
+    bool operator()(int, json::parse_event_t event, json& parsed) {
+        switch (event) {
+            case json::parse_event_t::object_start:
+                beginElement();
+                open_.push_back({});
+                break;
+            case json::parse_event_t::array_start:
+                beginElement();
+                open_.push_back({});
+                open_.back().isArray = true;
+                break;
+            case json::parse_event_t::object_end:
+            case json::parse_event_t::array_end:
+                open_.pop_back();
+                break;
+            case json::parse_event_t::key:
+                open_.back().key = parsed.get<std::string>();
+                if (!open_.back().keys.insert(open_.back().key).second) {
+                    throw InputError(file_, path(), "the key appears twice", "expected it once");
+                }
+                break;
+            case json::parse_event_t::value:
+                beginElement();
+                break;
+        }
+        return true;
+    }
+
+  private:
+    struct Level {
+        bool isArray = false;
+        std::size_t elements = 0;
+        std::string key;
+        std::set<std::string> keys;
+    };
+
+    void beginElement() {
+        if (!open_.empty()) ++open_.back().elements;
+    }
+
+    std::string path() const {
+        std::string path;
+        for (const Level& level : open_) {
+            if (level.isArray) {
+                path += fmt::format("[{}]", level.elements - 1);
+            } else {
+                if (!path.empty()) path += '.';
+                path += printable(level.key);
+            }
+        }
+        return path;
+    }
+
+    std::string file_;
+    std::vector<Level> open_;
+};
+
+/// "line 3, column 5" of a byte; columns count bytes.
+std::string placeOf(const std::string& text, std::size_t offset) {
+    const std::size_t end = std::min(offset, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    const std::size_t newline = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
+    return fmt::format("line {}, column {}", line,
+                       end - (newline == std::string::npos ? 0 : newline + 1) + 1);
+}
+
+/// The library's message without its prefix "[json.exception.parse_error.101] parse error at line 1, column
+/// 2: ".
+std::string explanation(const std::string& message) {
+    const std::size_t column = message.find("column ");
+    const std::size_t colon = message.find(": ", column == std::string::npos ? 0 : column);
+    const std::string rest = printable(colon == std::string::npos ? message : message.substr(colon + 2));
+    constexpr std::size_t kLongest = 160;
+    return rest.size() <= kLongest ? rest : rest.substr(0, kLongest) + "...";
+}
+
+}  // namespace
+
+json parseJsonFile(const std::filesystem::path& path) {
+    const std::string text = readFile(path);
+    try {
+        return json::parse(text, KeyWatch(path.string()));
+    } catch (const json::parse_error& e) {
+        const std::size_t offset = e.byte == 0 ? 0 : e.byte - 1;
+        throw InputError(path.string(), placeOf(text, offset), explanation(e.what()), "expected JSON");
+    } catch (const json::exception& e) {
+        throw InputError(path.string(), "", explanation(e.what()), "expected JSON");
+    }
+}
+
+}  // namespace duolux

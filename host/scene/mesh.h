@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace duolux {
+
+/// One mesh file as it was read: triangles in object space, among them possibly some of zero area.
+struct Mesh {
+    std::filesystem::path source;
+    Geometry geometry;
+    std::vector<Material> materials;  ///< of its MTL files, used or not, and those that faces name besides
+    std::vector<std::string> warnings;
+};
+
+/// Name of the material of faces that come before any `usemtl`.
+inline constexpr const char* kDefaultMaterialName = "default";
+
+/// Coordinates, before and after a transform, must not be larger than this: squared areas then fit a float.
+inline constexpr float kLargestCoordinate = 1e9f;
+
+/// Emitted radiance must not be larger than this.
+inline constexpr float kLargestRadiance = 1e12f;
+
+/// Reads Wavefront OBJ: polygons become triangles, normals come from `vn` or, where a face has none, from its
+/// smoothing group. Materials come from the MTL files it names; a missing one is a warning. Throws
+/// InputError.
+Mesh loadObj(const std::filesystem::path& path);
+
+}  // namespace duolux

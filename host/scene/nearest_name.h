@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace duolux {
+
+/// The smallest number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
+/// (restricted Damerau-Levenshtein distance; ASCII case does not count).
+std::size_t editDistance(std::string_view a, std::string_view b);
+
+/// For messages about an unknown name: `did you mean "vfov"?` if one of `known` is near, else `expected one
+/// of "position", "target" ...`.
+std::string suggestName(std::string_view unknown, std::span<const std::string> known);
+
+}  // namespace duolux

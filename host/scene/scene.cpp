@@ -1,0 +1,21 @@
+#include "host/scene/scene.h"
+
+#include <cassert>
+
+namespace duolux {
+
+Bounds boundsOf(const Geometry& geometry) {
+    assert(!geometry.triangles.empty());
+    const glm::vec3 first = geometry.positions[geometry.triangles[0].x];
+    Bounds bounds{first, first};
+    for (const glm::uvec3& triangle : geometry.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const glm::vec3& position = geometry.positions[triangle[i]];
+            bounds.lower = glm::min(bounds.lower, position);
+            bounds.upper = glm::max(bounds.upper, position);
+        }
+    }
+    return bounds;
+}
+
+}  // namespace duolux

@@ -1,0 +1,120 @@
+#include "host/scene/source_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+
+namespace duolux {
+
+namespace {
+
+bool isBlank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+bool isDigit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// Lone carriage returns end a line on old systems.
+void endLinesByNewline(std::string& bytes) {
+    char* const end = bytes.data() + bytes.size();
+    for (char* at = bytes.data(); at != end; ++at) {
+        at = static_cast<char*>(std::memchr(at, '\r', static_cast<std::size_t>(end - at)));
+        if (at == nullptr) return;
+        if (at + 1 == end || at[1] != '\n') *at = '\n';
+    }
+}
+
+std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
+    std::vector<std::size_t> joins;
+    for (std::size_t at = bytes.find('\\'); at != std::string::npos; at = bytes.find('\\', at + 1)) {
+        std::size_t lineEnd = at + 1;
+        if (lineEnd < bytes.size() && bytes[lineEnd] == '\r') ++lineEnd;
+        if (lineEnd >= bytes.size() || bytes[lineEnd] != '\n') continue;
+        std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                  bytes.begin() + static_cast<std::ptrdiff_t>(lineEnd) + 1, ' ');
+        joins.push_back(lineEnd);
+    }
+    return joins;
+}
+
+}  // namespace
+
+SourceText::SourceText(const std::filesystem::path& path) : path_(path), bytes_(readFile(path)) {
+    if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.replace(0, 3, 3, ' ');
+    if (!bytes_.empty()) {
+        if (const void* zero = std::memchr(bytes_.data(), 0, bytes_.size())) {
+            const auto offset = static_cast<std::size_t>(static_cast<const char*>(zero) - bytes_.data());
+            fail({offset, "holds a zero byte", "expected a text file"});
+        }
+    }
+    endLinesByNewline(bytes_);
+    joins_ = joinContinuedLines(bytes_);
+    if (bytes_.empty() || bytes_.back() != '\n') bytes_.push_back('\n');
+}
+
+std::size_t SourceText::lineOf(std::size_t offset) const {
+    const auto ends = std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
+    const auto joined = std::lower_bound(joins_.begin(), joins_.end(), offset) - joins_.begin();
+    return 1 + static_cast<std::size_t>(ends + joined);
+}
+
+void SourceText::fail(const TextProblem& problem) const {
+    throw InputError(file(), fmt::format("line {}", lineOf(problem.offset)), problem.problem, problem.remedy);
+}
+
+std::string printable(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    }
+    return result;
+}
+
+std::string inQuotes(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    return fmt::format("\"{}{}\"", printable(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && isBlank(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && isBlank(text.back()))
+        text.remove_suffix(1);
+    return text;
+}
+
+std::string_view firstWord(std::string_view text) {
+    const auto end = std::find_if(text.begin(), text.end(), isBlank);
+    return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+const char* skipDecimalNumber(const char* at, const char* end) {
+    auto skipDigits = [&] {
+        const char* const first = at;
+        while (at != end && isDigit(*at))
+            ++at;
+        return at - first;
+    };
+    if (at != end && (*at == '+' || *at == '-')) ++at;
+    std::ptrdiff_t digits = skipDigits();
+    if (at != end && *at == '.') {
+        ++at;
+        digits += skipDigits();
+    }
+    if (digits == 0) return nullptr;
+    if (at != end && (*at == 'e' || *at == 'E')) {
+        ++at;
+        if (at != end && (*at == '+' || *at == '-')) ++at;
+        const std::ptrdiff_t exponentDigits = skipDigits();
+        constexpr std::ptrdiff_t kMostExponentDigits = 4;  // far beyond the range of a double
+        if (exponentDigits == 0 || exponentDigits > kMostExponentDigits) return nullptr;
+    }
+    return at;
+}
+
+}  // namespace duolux

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace duolux {
+
+/// What is wrong with a text, and where.
+struct TextProblem {
+    std::size_t offset;  ///< bytes from the start of the text
+    std::string problem;
+    std::string remedy;
+};
+
+/// A line-based text file (OBJ, MTL) made regular for parsers: every line ends in '\n' (or "\r\n"), also the
+/// last; a byte order mark is blanked; a line continued by '\' is joined. Offsets stay those of the file, so
+/// that any of them gives the line number as an editor shows it.
+class SourceText {
+  public:
+    /// Throws InputError if the file cannot be read or is not text.
+    explicit SourceText(const std::filesystem::path& path);
+
+    std::string file() const { return path_.string(); }
+    std::string_view view() const { return bytes_; }
+    /// For parsers that blank out what they have dealt with.
+    char* data() { return bytes_.data(); }
+    std::size_t size() const { return bytes_.size(); }
+
+    /// 1 for the first line.
+    std::size_t lineOf(std::size_t offset) const;
+
+    /// Throws InputError "FILE: line N: PROBLEM; REMEDY".
+    [[noreturn]] void fail(const TextProblem& problem) const;
+
+  private:
+    std::filesystem::path path_;
+    std::string bytes_;
+    std::vector<std::size_t> joins_;  ///< offsets of the line ends that continuation replaced, ascending
+};
+
+/// The text without control characters, which could upset a terminal.
+std::string printable(std::string_view text);
+
+/// The text in double quotes for a message: shortened and printable.
+std::string inQuotes(std::string_view text);
+
+/// Without blanks at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// The text up to the first blank or line end.
+std::string_view firstWord(std::string_view text);
+
+/// Past the number [+-]digits[.digits][e[+-]digits] that starts at `at`, or null if none does.
+const char* skipDecimalNumber(const char* at, const char* end);
+
+}  // namespace duolux

@@ -1,0 +1,160 @@
+#include "host/scene/triangulate.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace duolux {
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Newell's method: twice the area vector of a closed polygon, also of one that is not quite plane.
+glm::dvec3 areaVector(std::span<const glm::vec3> corners) {
+    glm::dvec3 sum(0.0);
+    const glm::dvec3 origin(corners[0]);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        sum += glm::cross(glm::dvec3(corners[i]) - origin, glm::dvec3(corners[i + 1]) - origin);
+    }
+    return sum;
+}
+
+/// The polygon along its largest extent, turned so that it runs counter-clockwise.
+std::vector<glm::dvec2> project(std::span<const glm::vec3> corners, const glm::dvec3& area) {
+    const glm::dvec3 size = glm::abs(area);
+    const int drop = size.x > size.y && size.x > size.z ? 0 : (size.y > size.z ? 1 : 2);
+    const int first = (drop + 1) % 3;
+    const int second = (drop + 2) % 3;
+    const double turn = area[drop] < 0.0 ? -1.0 : 1.0;
+    std::vector<glm::dvec2> points;
+    points.reserve(corners.size());
+    for (const glm::vec3& corner : corners) {
+        points.emplace_back(static_cast<double>(corner[first]), turn * static_cast<double>(corner[second]));
+    }
+    return points;
+}
+
+/// Twice the signed area; positive: counter-clockwise.
+double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+bool isConvex(const std::vector<glm::dvec2>& points) {
+    // Every turn to the left, and once around only: the sum of the turns of a star is more than one round.
+    double round = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec2& a = points[i];
+        const glm::dvec2& b = points[(i + 1) % points.size()];
+        const glm::dvec2& c = points[(i + 2) % points.size()];
+        const double turn = cross(a, b, c);
+        if (turn <= 0.0) return false;
+        round += std::atan2(turn, glm::dot(b - a, c - b));
+    }
+    return round < 7.0;  // 2 pi, and not 4 pi
+}
+
+/// Points on the border count as inside, corners of the triangle do not.
+bool contains(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& p) {
+    if (p == a || p == b || p == c) return false;
+    return cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0;
+}
+
+/// Ear clipping (Meisters 1975). `ring` holds the corners that are left.
+class EarClipper {
+  public:
+    explicit EarClipper(const std::vector<glm::dvec2>& points) : points_(points), ring_(points.size()) {
+        std::iota(ring_.begin(), ring_.end(), 0u);
+    }
+
+    void run(std::vector<Triangle>& triangles) {
+        std::size_t from = 0;
+        while (ring_.size() > 3) {
+            const std::size_t ear = findEar(from);
+            triangles.push_back({previous(ear), ring_[ear], next(ear)});
+            ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
+            // Going on behind the ear keeps the triangles from all meeting in one corner.
+            from = ear % ring_.size();
+        }
+        triangles.push_back({ring_[0], ring_[1], ring_[2]});
+    }
+
+  private:
+    std::uint32_t previous(std::size_t i) const { return ring_[(i + ring_.size() - 1) % ring_.size()]; }
+    std::uint32_t next(std::size_t i) const { return ring_[(i + 1) % ring_.size()]; }
+    double turnAt(std::size_t i) const {
+        return cross(points_[previous(i)], points_[ring_[i]], points_[next(i)]);
+    }
+
+    /// The first ear from `from` on. Without any, a corner on a straight line, else just the next one.
+    std::size_t findEar(std::size_t from) const {
+        std::vector<std::uint32_t> reflex;
+        for (std::size_t i = 0; i < ring_.size(); ++i) {
+            if (turnAt(i) <= 0.0) reflex.push_back(ring_[i]);
+        }
+        std::size_t straight = ring_.size();
+        for (std::size_t step = 0; step < ring_.size(); ++step) {
+            const std::size_t i = (from + step) % ring_.size();
+            const double turn = turnAt(i);
+            if (turn == 0.0 && straight == ring_.size()) straight = i;
+            if (turn > 0.0 && isEmpty(i, reflex)) return i;
+        }
+        return straight < ring_.size() ? straight : from;
+    }
+
+    bool isEmpty(std::size_t i, const std::vector<std::uint32_t>& reflex) const {
+        const glm::dvec2& a = points_[previous(i)];
+        const glm::dvec2& b = points_[ring_[i]];
+        const glm::dvec2& c = points_[next(i)];
+        return std::none_of(reflex.begin(), reflex.end(),
+                            [&](std::uint32_t other) { return contains(a, b, c, points_[other]); });
+    }
+
+    const std::vector<glm::dvec2>& points_;
+    std::vector<std::uint32_t> ring_;
+};
+
+void fan(std::uint32_t count, std::vector<Triangle>& triangles) {
+    for (std::uint32_t i = 1; i + 1 < count; ++i)
+        triangles.push_back({0, i, i + 1});
+}
+
+void cutQuadrilateral(std::span<const glm::vec3> corners, const glm::dvec3& area,
+                      std::vector<Triangle>& triangles) {
+    // The smaller of the areas, towards the front, of the two triangles that a diagonal makes.
+    auto smallerHalf = [&](std::uint32_t from) {
+        const glm::dvec3 a(corners[from]), b(corners[from + 1]), c(corners[from + 2]),
+            d(corners[(from + 3) % 4]);
+        return std::min(glm::dot(glm::cross(b - a, c - a), area), glm::dot(glm::cross(c - a, d - a), area));
+    };
+    const double half02 = smallerHalf(0);
+    const double half13 = smallerHalf(1);
+    const float diagonal02 = glm::distance(corners[0], corners[2]);
+    const float diagonal13 = glm::distance(corners[1], corners[3]);
+    const bool bothFit = half02 > 0.0 && half13 > 0.0;
+    const bool by02 = bothFit ? diagonal02 <= diagonal13 : half02 >= half13;
+    if (by02) {
+        triangles.push_back({0, 1, 2});
+        triangles.push_back({0, 2, 3});
+    } else {
+        triangles.push_back({0, 1, 3});
+        triangles.push_back({1, 2, 3});
+    }
+}
+
+}  // namespace
+
+void triangulate(std::span<const glm::vec3> corners, std::vector<Triangle>& triangles) {
+    assert(corners.size() >= 3);
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    if (count == 3) return fan(count, triangles);
+    const glm::dvec3 area = areaVector(corners);
+    if (count == 4) return cutQuadrilateral(corners, area, triangles);
+    const std::vector<glm::dvec2> points = project(corners, area);
+    if (isConvex(points)) return fan(count, triangles);
+    EarClipper(points).run(triangles);
+}
+
+}  // namespace duolux

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace duolux {
+
+/// Bounds of the number of triangles that writeTwoSpheres accepts.
+inline constexpr std::size_t kFewestTwoSpheresTriangles = 100;
+inline constexpr std::size_t kMostTwoSpheresTriangles = 50'000'000;
+
+/// Writes the scene of the paper's evaluation (section 3): two spheres under a rectangular luminaire that
+/// emits invisible light only, in a room open to the camera, as FOLDER/two_spheres.{obj,mtl,json}. The number
+/// of triangles is within 1 % of `triangles`, most of them in the spheres: icosahedra whose faces are divided
+/// evenly, so that there are no slivers. Returns the exact number. Throws MachineError if the files cannot be
+/// written.
+std::size_t writeTwoSpheres(const std::filesystem::path& folder, std::size_t triangles);
+
+}  // namespace duolux
