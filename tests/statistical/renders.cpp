@@ -1,0 +1,55 @@
+#include "tests/statistical/renders.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "host/render/render.h"
+#include "tests/reference/estimates_image.h"
+#include "tests/support/device.h"
+
+namespace duolux::test {
+
+namespace {
+
+/// PFM of both components, PNG of the displayed one.
+void writeAll(const std::filesystem::path& stem, const RadianceImage& image) {
+    ImageOptions options;
+    writeImage(stem.string() + "-visible.pfm", image, options);
+    writeImage(stem.string() + "-visible.png", image, options);
+    options.display = {1.0f, 0.0f};
+    writeImage(stem.string() + "-invisible.pfm", image, options);
+}
+
+}  // namespace
+
+Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed) {
+    Renders renders;
+    scene.render.spp = spp;
+    for (std::uint32_t i = 0; i < seeds; ++i) {
+        scene.render.seed = firstSeed + i;
+        const RenderOutput output = render(device(), scene);
+        EXPECT_EQ(output.statistics.nonFiniteSamples, 0u);
+        EXPECT_FALSE(output.film.overflowed());
+        EXPECT_EQ(output.film.totalSamples(), std::uint64_t{scene.render.width} * scene.render.height * spp);
+        renders.images.push_back(output.film.resolve());
+        renders.quantum = static_cast<double>(output.film.quantum());
+    }
+    return renders;
+}
+
+void expectAgreement(const std::string& name, const Renders& renders, const reference::Estimates& expected,
+                     Criterion criterion) {
+    // Every sample is rounded to a multiple of the quantum, which moves even a constant by half of it.
+    criterion.absolute += 0.5 * renders.quantum;
+    const Agreement agreement = judge(renders.images, expected, criterion);
+    if (agreement.agrees) return;
+    const std::filesystem::path folder = DUOLUX_ARTEFACTS;
+    std::filesystem::create_directories(folder);
+    writeAll(folder / (name + "-rendered"), agreement.meanImage);
+    writeAll(folder / (name + "-expected"), imageOf(expected));
+    writeAll(folder / (name + "-t"), agreement.z);
+    ADD_FAILURE() << agreement.report << "pictures: " << (folder / name).string() << "-*";
+}
+
+}  // namespace duolux::test

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/film/image.h"
+#include "host/scene/scene.h"
+#include "tests/support/agreement.h"
+
+namespace duolux::test {
+
+/// Renders of one scene that differ in their seed alone.
+struct Renders {
+    std::vector<RadianceImage> images;
+    double quantum = 0.0;  ///< of the film
+};
+
+/// Renders on the tests' device with seeds firstSeed, firstSeed + 1, ...; fails the running test if a sample
+/// was not finite or a sum overflowed.
+Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed = 1);
+
+/// Fails the running test if the renders disagree with the expectation, and then leaves pictures of both and
+/// of the Welch statistic in the build directory, under artefacts/<name>.
+void expectAgreement(const std::string& name, const Renders& renders, const reference::Estimates& expected,
+                     Criterion criterion = {});
+
+}  // namespace duolux::test

@@ -1,0 +1,187 @@
+#include "tests/support/agreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "tests/support/statistics.h"
+
+namespace duolux::test {
+
+namespace {
+
+constexpr const char* kComponent[2] = {"invisible", "visible"};
+/// A pixel has few distinct values, on which a few renders may all agree by chance and leave no variance to
+/// test with.
+constexpr std::size_t kEnoughForPixels = 10;
+constexpr char kChannel[3] = {'r', 'g', 'b'};
+
+/// Mean over the renders of one value of one pixel.
+Mean meanOver(std::span<const RadianceImage> renders, int component, std::size_t pixel, int channel) {
+    const auto count = static_cast<double>(renders.size());
+    double sum = 0.0;
+    const auto value = [&](const RadianceImage& image) {
+        return static_cast<double>((component == 0 ? image.invisible : image.visible)[pixel][channel]);
+    };
+    for (const RadianceImage& image : renders)
+        sum += value(image);
+    const double mean = sum / count;
+    double squares = 0.0;
+    for (const RadianceImage& image : renders)
+        squares += (value(image) - mean) * (value(image) - mean);
+    return {mean, squares / (count * (count - 1.0)), count - 1.0};
+}
+
+/// Mean over pixels of independent means, with Satterthwaite's degrees of freedom.
+class BlockMean {
+  public:
+    void add(const Mean& m) {
+        value_ += m.value;
+        variance_ += m.variance;
+        spread_ += m.variance * m.variance / m.degrees;
+        ++count_;
+    }
+    Mean mean() const {
+        const double degrees = spread_ > 0.0 ? variance_ * variance_ / spread_ : 1.0;
+        return {value_ / count_, variance_ / (count_ * count_), degrees};
+    }
+
+  private:
+    double value_ = 0.0, variance_ = 0.0, spread_ = 0.0, count_ = 0.0;
+};
+
+struct Values {
+    std::uint32_t width, height;
+    std::vector<Mean> rendered, expected;  ///< per pixel, component and channel
+
+    static std::size_t at(std::size_t pixel, int component, int channel) {
+        return pixel * 6 + static_cast<std::size_t>(component * 3 + channel);
+    }
+};
+
+Values collect(std::span<const RadianceImage> renders, const reference::Estimates& expected) {
+    Values values{expected.width, expected.height, {}, {}};
+    const double degrees = std::max(1.0, expected.samples - 1.0);
+    for (std::size_t pixel = 0; pixel < expected.pixels.size(); ++pixel) {
+        const reference::Estimate& e = expected.pixels[pixel];
+        for (int component = 0; component < 2; ++component) {
+            for (int channel = 0; channel < 3; ++channel) {
+                values.rendered.push_back(meanOver(renders, component, pixel, channel));
+                values.expected.push_back(
+                    {e.mean[component][channel], e.variance[component][channel], degrees});
+            }
+        }
+    }
+    return values;
+}
+
+/// Tests all blocks of `size` pixels a side, and notes the statistics in `z` if those are pixels.
+void judgeScale(const Values& values, std::uint32_t size, double alpha, const Criterion& criterion,
+                Agreement& agreement) {
+    const std::uint32_t across = (values.width + size - 1) / size, down = (values.height + size - 1) / size;
+    const double level = sidakLevel(alpha, std::size_t{across} * down * 6);
+    Welch worst;
+    std::string worstWhere;
+    std::size_t failed = 0;
+    for (std::uint32_t block = 0; block < across * down; ++block) {
+        const std::uint32_t x0 = block % across * size, y0 = block / across * size;
+        const std::uint32_t x1 = std::min(x0 + size, values.width), y1 = std::min(y0 + size, values.height);
+        for (int component = 0; component < 2; ++component) {
+            for (int channel = 0; channel < 3; ++channel) {
+                BlockMean rendered, expected;
+                for (std::uint32_t y = y0; y < y1; ++y) {
+                    for (std::uint32_t x = x0; x < x1; ++x) {
+                        const std::size_t i =
+                            Values::at(std::size_t{y} * values.width + x, component, channel);
+                        rendered.add(values.rendered[i]);
+                        expected.add(values.expected[i]);
+                    }
+                }
+                const Mean a = rendered.mean(), b = expected.mean();
+                const Welch test = welch(a, b, criterion.absolute + criterion.relative * std::abs(b.value));
+                if (size == 1) {
+                    auto& map = component == 0 ? agreement.z.invisible : agreement.z.visible;
+                    map[block][channel] = static_cast<float>(std::clamp(test.t, -1e6, 1e6));
+                }
+                if (test.p < level) ++failed;
+                if (!worstWhere.empty() && test.p >= worst.p) continue;
+                worst = test;
+                worstWhere = fmt::format(
+                    "{} {} at ({}, {}): {:.6g} +- {:.2g}, expected {:.6g} +- {:.2g}, t = {:.2f}, p = {:.2g}",
+                    kComponent[component], kChannel[channel], x0, y0, a.value, std::sqrt(a.variance), b.value,
+                    std::sqrt(b.variance), test.t, test.p);
+            }
+        }
+    }
+    if (failed > 0) agreement.agrees = false;
+    agreement.report +=
+        fmt::format("{}{}x{} blocks of {} pixels: {} beyond level {:.2g}; worst {}\n",
+                    failed > 0 ? "FAILED " : "", across, down, size, failed, level, worstWhere);
+}
+
+/// Do the pixels of each component and channel scatter about the expectation as their variances say? The
+/// squares of t average to n/(n-2) for n degrees of freedom; a bias of either sign and of less than a
+/// standard error, as long as it is widespread, raises that where no single pixel stands out. Allows 6
+/// standard deviations, which needs no table, and a tenth for estimators that are not quite normal.
+void judgeScatter(const Values& values, const Criterion& criterion, Agreement& agreement) {
+    double worst = 0.0;
+    std::string worstWhere = "none";
+    for (int component = 0; component < 2; ++component) {
+        for (int channel = 0; channel < 3; ++channel) {
+            double count = 0.0, excess = 0.0, variance = 0.0;
+            for (std::size_t pixel = 0; pixel < std::size_t{values.width} * values.height; ++pixel) {
+                const std::size_t i = Values::at(pixel, component, channel);
+                const Mean &a = values.rendered[i], &b = values.expected[i];
+                const Welch test = welch(a, b, criterion.absolute + criterion.relative * std::abs(b.value));
+                const double n = test.degrees;
+                if (test.t == 0.0 || n <= 8.0) continue;
+                ++count;
+                excess += test.t * test.t - n / (n - 2.0);
+                variance += 2.0 * n * n * (n - 1.0) / ((n - 2.0) * (n - 2.0) * (n - 4.0));
+            }
+            if (count == 0.0) continue;
+            const double ratio = excess / (6.0 * std::sqrt(variance) + 0.1 * count);
+            if (ratio < worst) continue;
+            worst = ratio;
+            worstWhere = fmt::format("{} {}: mean square t exceeds its expectation by {:.3g} over {} pixels",
+                                     kComponent[component], kChannel[channel], excess / count, count);
+        }
+    }
+    if (worst > 1.0) agreement.agrees = false;
+    agreement.report += fmt::format("{}scatter about the expectation: worst at {:.2f} of the limit, {}\n",
+                                    worst > 1.0 ? "FAILED " : "", worst, worstWhere);
+}
+
+}  // namespace
+
+Agreement judge(std::span<const RadianceImage> renders, const reference::Estimates& expected,
+                const Criterion& criterion) {
+    assert(renders.size() >= 2);
+    const Values values = collect(renders, expected);
+    Agreement agreement;
+    RadianceImage blank{expected.width, expected.height, {}, {}};
+    blank.invisible.resize(expected.pixels.size());
+    blank.visible.resize(expected.pixels.size());
+    agreement.meanImage = agreement.z = blank;
+    for (std::size_t pixel = 0; pixel < expected.pixels.size(); ++pixel) {
+        for (int c = 0; c < 3; ++c) {
+            const auto mean = [&](int component) {
+                return static_cast<float>(values.rendered[Values::at(pixel, component, c)].value);
+            };
+            agreement.meanImage.invisible[pixel][c] = mean(0);
+            agreement.meanImage.visible[pixel][c] = mean(1);
+        }
+    }
+    const std::uint32_t whole = std::max(expected.width, expected.height);
+    if (renders.size() >= kEnoughForPixels) {
+        judgeScale(values, 1, criterion.alpha / 4, criterion, agreement);
+        judgeScatter(values, criterion, agreement);
+    }
+    for (std::uint32_t size : {4u, 8u, whole})
+        judgeScale(values, size, criterion.alpha / 4, criterion, agreement);
+    return agreement;
+}
+
+}  // namespace duolux::test

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/film/image.h"
+#include "tests/reference/tracer.h"
+
+namespace duolux::test {
+
+struct Criterion {
+    double alpha = 1e-4;     ///< probability that any test of the family fails though the means agree
+    double relative = 1e-5;  ///< of the expected value: what is not statistical, such as rounding
+    double absolute = 1e-9;  ///< radiance
+};
+
+/// The verdict on a set of images.
+struct Agreement {
+    bool agrees = true;
+    std::string report;  ///< the worst of every scale, and what failed
+    RadianceImage meanImage;
+    RadianceImage z;  ///< signed Welch statistic per pixel where tested, both components
+};
+
+/// Judges independent renders (one a seed, at least 2) of a scene whose expectation is known, exactly or with
+/// variances. Welch's t per component and channel on blocks of 4 and 8 pixels a side and on the whole image,
+/// and with 10 renders or more on every pixel: noise averages out as the blocks grow, a bias does not. Each
+/// scale gets a quarter of alpha, divided by Sidak's rule among its tests. Above the scale of a pixel, pixels
+/// are taken as independent of each other. With 10 renders or more the mean square of t over all pixels is
+/// tested too.
+Agreement judge(std::span<const RadianceImage> renders, const reference::Estimates& expected,
+                const Criterion& criterion = {});
+
+}  // namespace duolux::test

@@ -1,0 +1,126 @@
+#include <algorithm>
+
+#include "tests/support/exact/receiver.h"
+
+// Between receiver and luminaire stand two panes, the lower met first from the receiver: by eq. 16 the
+// receiver shows albedo / pi O T_lower T_upper E times Lambert's formula. Commuting T's tell whether the
+// transmittance is there at all, the others whether it is multiplied in order, on segments whose search may
+// meet surfaces in any order. The shortcuts that skip a shadow ray where nothing can withhold light (`local`)
+// or stop it at the first hit (T = 0) must look at every material, not at the scene's.
+
+namespace duolux::test {
+
+namespace {
+
+const Emission kGlow{{3.0f, 2.0f, 5.0f}, {0.5f, 1.0f, 4.0f}, Sides::kFront};
+const glm::vec3 kEye{0.95f, 0.2f, 0.25f};  // passes beside the panes
+
+const LightMatrix kAmber{{0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
+const LightMatrix kTeal{{0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
+const LightMatrix kOpaque{{0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}};
+
+LightMatrix passes(float t) {
+    return blendReflectance(t, 0.0f).transparent;
+}
+
+struct Pane {
+    LightMatrix transparent;
+    float height;
+    bool half = false;  ///< covers x >= 0 alone
+    bool turned = false;
+    Material material = filter("pane", {});
+};
+
+struct Setup {
+    Reflectance receiver = preset("local");
+    Reflectance scene = preset("local");
+    std::vector<Pane> panes;
+};
+
+void addPane(SceneBuilder& builder, const Pane& pane) {
+    Material material = pane.material;
+    if (material.reflectance) material.reflectance->transparent = pane.transparent;
+    const double x0 = pane.half ? 0.0 : -1.1;
+    const auto c = downwardRectangle(x0, 1.1, -0.9, 0.9, static_cast<double>(pane.height));
+    const std::uint32_t index = builder.add(material);
+    if (pane.turned) {
+        builder.quad(c[3], c[2], c[1], c[0], index);
+    } else {
+        builder.quad(c[0], c[1], c[2], c[3], index);
+    }
+}
+
+ExactCase blocked(std::string name, const Setup& setup) {
+    ReceiverScene::Receiver receiver;
+    receiver.reflectance = setup.receiver;
+    ReceiverScene scene(receiver, kEye);
+    scene.builder().scene.reflectance = setup.scene;
+    // In two parts at the plane x = 0, where a half pane's edge lies as seen from the origin.
+    const std::vector<Vec3> left = downwardRectangle(-0.8, 0.0, -0.5, 0.9, 2),
+                            whole = downwardRectangle(-0.8, 0.6, -0.5, 0.9, 2);
+    const double leftFactor = lambertPolygon(Vec3(0.0), Vec3(0, 1, 0), left);
+    const double rightFactor = lambertPolygon(Vec3(0.0), Vec3(0, 1, 0), whole) - leftFactor;
+    scene.emitter(whole, kGlow, preset("local"));
+    ChannelMatrix throughLeft = reference::identityPerChannel(), throughRight = throughLeft;
+    for (const Pane& pane : setup.panes) {
+        addPane(scene.builder(), pane);
+        const ChannelMatrix t = reference::channelsOf(pane.transparent);
+        if (!pane.half) throughLeft = throughLeft * t;
+        throughRight = throughRight * t;
+    }
+    const ChannelLight light = reference::channelsOf(kGlow.invisible, kGlow.visible);
+    return scene.finish(
+        std::move(name), 1,
+        scene.reflected(leftFactor * (throughLeft * light) + rightFactor * (throughRight * light)));
+}
+
+}  // namespace
+
+std::vector<ExactCase> blockerCases() {
+    std::vector<ExactCase> cases;
+    const auto add = [&](const char* name, const Setup& setup) { cases.push_back(blocked(name, setup)); };
+    const Reflectance mixing{kOpaque, {}};
+
+    // A pane of the scene's own reflectance: absent in `local`, t each in blend (t, 0).
+    Material plain;
+    plain.name = "plain";
+    add("BlockerAbsentInLocal",
+        {preset("local"), preset("local"), {{passes(1.0f), 0.7f, false, false, plain}}});
+    const Reflectance blend = blendReflectance(0.5f, 0.0f);
+    add("BlockerBlend", {blend, blend, {{passes(0.5f), 0.7f, false, false, plain}}});
+    add("BlockerBlendTwice",
+        {blend,
+         blend,
+         {{passes(0.5f), 0.7f, false, false, plain}, {passes(0.5f), 1.3f, false, true, plain}}});
+    Material oneSided = plain;
+    oneSided.sides = Sides::kFront;
+    add("BlockerFrontOnlyPassesBothWays",
+        {blend,
+         blend,
+         {{passes(0.5f), 0.7f, false, false, oneSided}, {passes(0.5f), 1.3f, false, true, oneSided}}});
+
+    // One opaque object in a scene that is `local` otherwise still casts its shadow, whole or half.
+    add("BlockerOpaqueInLocal", {preset("local"), preset("local"), {{passes(0.0f), 1.3f}}});
+    add("BlockerOpaqueHalfInLocal", {preset("local"), preset("local"), {{passes(0.0f), 1.3f, true}}});
+    add("BlockerClearInGlobal", {preset("global"), preset("global"), {{passes(1.0f), 0.7f}}});
+
+    add("BlockerDiagonal", {mixing, preset("global"), {{matrix(0.5f, 0, 0, 0.25f), 0.7f}}});
+    add("BlockerFull", {mixing, preset("global"), {{kAmber, 0.7f}}});
+    add("BlockerAmberTeal", {mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f}}});
+    add("BlockerTealAmber", {mixing, preset("global"), {{kTeal, 0.7f}, {kAmber, 1.3f}}});
+    add("BlockerTealAmberTeal", {mixing, preset("global"), {{kTeal, 0.5f}, {kAmber, 0.7f}, {kTeal, 1.6f}}});
+    add("BlockerHalfAmberTeal", {mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f, true}}});
+    // Panes listed from the top: the order of the triangles must not decide.
+    Setup shuffled{mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f}}};
+    ExactCase reversed = blocked("BlockerListedFromTop", shuffled);
+    std::reverse(reversed.scene.geometry.triangles.begin(), reversed.scene.geometry.triangles.end());
+    std::reverse(reversed.scene.geometry.materials.begin(), reversed.scene.geometry.materials.end());
+    cases.push_back(std::move(reversed));
+    // Strictly triangular T's: passing in this order leaves nothing, in the other something.
+    const LightMatrix raise = matrix(0, 1, 0, 0), lower = matrix(1, 0, 0, 0);
+    add("BlockerExtinct", {mixing, preset("global"), {{raise, 0.7f}, {lower, 1.3f}}});
+    add("BlockerNotExtinct", {mixing, preset("global"), {{lower, 0.7f}, {raise, 1.3f}}});
+    return cases;
+}
+
+}  // namespace duolux::test

@@ -1,0 +1,91 @@
+#include "tests/support/closed_form.h"
+#include "tests/support/exact_case.h"
+#include "tests/support/scene_builder.h"
+
+// Concentric closed spheres: every ray meets the same surfaces in the same order, so that the radiance is a
+// fixed word in the matrices T and the emissions E. T's that do not commute tell a product built in the wrong
+// order, on camera rays (bounces = 0, no noise at all) and on shadow rays (bounces > 0). Emission from the
+// wrong side, a crossing missed or counted twice, and channels mixed up show as well.
+
+namespace duolux::test {
+
+namespace {
+
+const LightMatrix kFirst{{0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
+const LightMatrix kSecond{{0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
+const LightMatrix kThird{{0.0f, 0.5f, 1.0f}, {1.0f, 0.2f, 0.0f}, {0.5f, 0.0f, 0.3f}, {0.0f, 1.0f, 0.6f}};
+
+Material pane(const char* name, const LightMatrix& transparent, const Emission& emission) {
+    Material material = filter(name, transparent);
+    material.emission = emission;
+    return material;
+}
+
+const Emission kGlow[] = {{{1.0f, 2.0f, 3.0f}, {0.5f, 0.25f, 0.75f}, Sides::kFront},
+                          {{0.2f, 0.4f, 0.1f}, {4.0f, 1.0f, 2.0f}, Sides::kFront},
+                          {{5.0f, 3.0f, 0.0f}, {0.0f, 7.0f, 6.0f}, Sides::kFront}};
+
+ChannelLight light(const Emission& emission) {
+    return reference::channelsOf(emission.invisible, emission.visible);
+}
+
+Scene view(SceneBuilder builder, glm::vec3 position, float vfov, std::uint32_t bounces) {
+    Scene& scene = builder.scene;
+    scene.reflectance = preset("global");
+    scene.camera = {position, position + glm::vec3(0.0f, 0.0f, -1.0f), {0, 1, 0}, vfov};
+    scene.render.width = scene.render.height = 16;
+    scene.render.bounces = bounces;
+    return scene;
+}
+
+/// Two spheres from outside. Facing inwards, each is met first from its back, which is dark, then from its
+/// front.
+ExactCase fromOutside(const char* name, const LightMatrix& outer, const LightMatrix& inner, Sides sides) {
+    SceneBuilder builder;
+    Emission a = kGlow[0], b = kGlow[1];
+    a.sides = b.sides = sides;
+    builder.sphere(glm::vec3(0.0f), 1.0f, 1, Facing::kInward, builder.add(pane("inner", inner, b)));
+    builder.sphere(glm::vec3(0.0f), 2.0f, 1, Facing::kInward, builder.add(pane("outer", outer, a)));
+    const ChannelMatrix ta = reference::channelsOf(outer), tb = reference::channelsOf(inner);
+    const ChannelLight ea = light(a), eb = light(b);
+    const ChannelLight beyond = eb + tb * ea;
+    const ChannelLight expected = sides == Sides::kFront ? ta * (tb * beyond) : ea + ta * (eb + tb * beyond);
+    return {name, view(builder, {0, 0, 8}, 6.0f, 0), uniformImage(16, 16, expected)};
+}
+
+/// Three spheres from their centre: E1 + T1 (E2 + T2 E3), to which the innermost adds its interreflections.
+ExactCase fromCentre(const char* name, const LightMatrix& first, const LightMatrix& second,
+                     std::uint32_t bounces) {
+    const glm::vec3 albedo{0.4f, 0.6f, 0.8f};
+    const LightMatrix opaque{{0.3f, 0.5f, 0.2f}, {0.5f, 0.1f, 0.4f}, {0.7f, 0.2f, 0.6f}, {0.1f, 0.4f, 0.3f}};
+    SceneBuilder builder;
+    Material inner = pane("inner", first, kGlow[0]);
+    inner.diffuse = albedo;
+    inner.sides = Sides::kFront;
+    inner.reflectance->opaque = opaque;
+    builder.sphere(glm::vec3(0.0f), 1.0f, 1, Facing::kInward, builder.add(inner));
+    builder.sphere(glm::vec3(0.0f), 1.5f, 1, Facing::kInward, builder.add(pane("middle", second, kGlow[1])));
+    builder.sphere(glm::vec3(0.0f), 2.5f, 1, Facing::kInward, builder.add(pane("outer", kThird, kGlow[2])));
+    const ChannelMatrix t1 = reference::channelsOf(first), t2 = reference::channelsOf(second);
+    const ChannelLight source = light(kGlow[0]) + t1 * (light(kGlow[1]) + t2 * light(kGlow[2]));
+    const ChannelMatrix scatter = scaled(albedo, reference::channelsOf(opaque));
+    return {name, view(builder, glm::vec3(0.1f), 70.0f, bounces),
+            uniformImage(16, 16, enclosureRadiance(scatter, source, bounces))};
+}
+
+}  // namespace
+
+std::vector<ExactCase> crossingCases() {
+    return {fromOutside("CrossingOutsideAB", kFirst, kSecond, Sides::kFront),
+            fromOutside("CrossingOutsideBA", kSecond, kFirst, Sides::kFront),
+            fromOutside("CrossingOutsideBothSidesAB", kFirst, kSecond, Sides::kBoth),
+            fromOutside("CrossingOutsideBothSidesBA", kSecond, kFirst, Sides::kBoth),
+            // A nilpotent T: whatever passes it twice is gone.
+            fromOutside("CrossingNilpotent", kFirst, matrix(0.0f, 1.0f, 0.0f, 0.0f), Sides::kBoth),
+            fromCentre("CrossingCentre", kFirst, kSecond, 0),
+            fromCentre("CrossingCentreAB1", kFirst, kSecond, 1),
+            fromCentre("CrossingCentreBA1", kSecond, kFirst, 1),
+            fromCentre("CrossingCentreAB12", kFirst, kSecond, 12)};
+}
+
+}  // namespace duolux::test

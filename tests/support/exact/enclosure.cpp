@@ -1,0 +1,85 @@
+#include "tests/support/closed_form.h"
+#include "tests/support/exact_case.h"
+#include "tests/support/scene_builder.h"
+
+// Inside a closed convex enclosure of uniform emission every direction meets exactly one wall, whose radiance
+// does not depend on the place: L = E + albedo O L, cut off after the allowed bounces. T leads out of the
+// enclosure, where nothing is, and so must not matter. A wall met twice by one ray (a wrong ray offset), a
+// wrong pdf of light or direction sampling, a wrong MIS weight, roulette that forgets to divide, an O applied
+// from the wrong side or a miscounted bounce all show.
+
+namespace duolux::test {
+
+namespace {
+
+// One albedo a channel: each case is three.
+const glm::vec3 kAlbedo{0.1f, 0.5f, 0.8f};
+
+struct Walls {
+    Reflectance reflectance;
+    std::uint32_t bounces = 0;
+    Sides sides = Sides::kFront;  ///< both of f_opaque and of emission
+    Emission emission{{1.0f, 0.5f, 2.0f}, {0.25f, 0.125f, 0.5f}, Sides::kFront};
+};
+
+ExactCase enclosure(std::string name, const Walls& walls) {
+    SceneBuilder builder;
+    Material material;
+    material.name = "wall";
+    material.diffuse = kAlbedo;
+    material.sides = walls.sides;
+    material.emission = walls.emission;
+    material.emission.sides = walls.sides;
+    builder.sphere(glm::vec3(0.0f), 2.0f, 1, Facing::kInward, builder.add(material));
+    Scene& scene = builder.scene;
+    scene.reflectance = walls.reflectance;
+    scene.camera = {{0.3f, -0.2f, 0.4f}, {1.0f, 0.7f, -0.6f}, {0, 1, 0}, 80.0f};
+    scene.render.width = scene.render.height = 32;
+    scene.render.bounces = walls.bounces;
+    const ChannelMatrix scatter = scaled(kAlbedo, reference::channelsOf(walls.reflectance.opaque));
+    const ChannelLight emission = reference::channelsOf(walls.emission.invisible, walls.emission.visible);
+    return {std::move(name), scene,
+            uniformImage(32, 32, enclosureRadiance(scatter, emission, walls.bounces))};
+}
+
+/// Full matrices that differ per channel and do not commute; spectral radius of O below 1.25.
+Reflectance fullReflectance() {
+    return {{{0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}},
+            {{0.3f, 0.6f, 0.1f}, {0.2f, 0.1f, 0.5f}, {0.4f, 0.2f, 0.3f}, {0.1f, 0.5f, 0.7f}}};
+}
+
+}  // namespace
+
+std::vector<ExactCase> enclosureCases() {
+    std::vector<ExactCase> cases;
+    for (const Preset& p : presets()) {
+        // `one-bounce` without its hyphen: test names are plain.
+        const std::string name = p.name == "one-bounce" ? "OneBounce" : std::string(p.name);
+        cases.push_back(enclosure("EnclosureFront" + name, {blendReflectance(p.t, p.o), 24}));
+        cases.push_back(enclosure("EnclosureBoth" + name, {blendReflectance(p.t, p.o), 24, Sides::kBoth}));
+    }
+    cases.push_back(enclosure("EnclosureBlend37", {blendReflectance(0.3f, 0.7f), 24, Sides::kBoth}));
+    cases.push_back(enclosure("EnclosureBlend55", {blendReflectance(0.5f, 0.5f), 24}));
+    Reflectance opaqueOnly = fullReflectance();
+    opaqueOnly.transparent = {};
+    cases.push_back(enclosure("EnclosureFullOpaque", {opaqueOnly, 24}));
+    cases.push_back(enclosure("EnclosureFull", {fullReflectance(), 24, Sides::kBoth}));
+
+    // The series itself: the n-th term is there if and only if n bounces are allowed.
+    for (std::uint32_t bounces : {0u, 1u, 2u, 3u, 5u}) {
+        cases.push_back(enclosure("EnclosureFullBounces" + std::to_string(bounces),
+                                  {fullReflectance(), bounces, Sides::kBoth}));
+    }
+    // Deep paths: 0.8^65 = 5e-7 is left out of the infinite sum, and the expectation knows.
+    cases.push_back(enclosure("EnclosureDeep", {preset("global"), 64}));
+    // Spectral radius 1.6 in blue: each bounce returns more than it got, and six of them have a definite sum.
+    cases.push_back(enclosure("EnclosureGrowing", {Reflectance{matrix(2.0f, 0.0f, 1.0f, 0.0f), {}}, 6}));
+    // Only visible light, and an O that turns it into invisible light and back.
+    cases.push_back(enclosure("EnclosureExchange", {Reflectance{matrix(0.0f, 1.0f, 1.0f, 0.0f), {}},
+                                                    24,
+                                                    Sides::kFront,
+                                                    {glm::vec3(0.0f), {1.0f, 2.0f, 0.5f}, Sides::kFront}}));
+    return cases;
+}
+
+}  // namespace duolux::test

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/scene/scene.h"
+#include "tests/reference/tracer.h"
+
+namespace duolux::test {
+
+/// A scene whose image is known in closed form: both the reference and the kernels must render it.
+struct ExactCase {
+    std::string name;  ///< letters and digits
+    Scene scene;       ///< size and bounces set
+    reference::Estimates expected;
+    /// Which light search has a finite variance here; only the reference needs to be told.
+    reference::LightSearch search = reference::LightSearch::kDirection;
+    double relative = 1e-5;  ///< error of the closed form and of single precision
+};
+
+/// Closed sphere seen from inside, uniform emission: L = sum over k of (albedo O)^k E.
+std::vector<ExactCase> enclosureCases();
+
+/// Concentric spheres that pass light on: products of T in the order met from the camera.
+std::vector<ExactCase> crossingCases();
+
+/// Any objects whose emission makes up for what they withhold: the image is uniform whatever their shape.
+std::vector<ExactCase> furnaceCases();
+
+/// A diffuse receiver below an unoccluded rectangle: Lambert's polygon formula.
+std::vector<ExactCase> lambertCases();
+
+/// The same with something between receiver and rectangle: products of T in the order met from the receiver.
+std::vector<ExactCase> blockerCases();
+
+/// All of the above.
+std::vector<ExactCase> exactCases();
+
+}  // namespace duolux::test

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "host/scene/scene.h"
+#include "tests/reference/matrix2.h"
+
+namespace duolux::test {
+
+/// A 2x2 matrix with the same entries in all channels.
+LightMatrix matrix(float m00, float m01, float m10, float m11);
+
+Reflectance preset(const char* name);
+
+/// Absorbs, does not emit, and transmits by `transparent`.
+Material filter(const std::string& name, const LightMatrix& transparent);
+
+enum class Facing : std::uint8_t { kOutward, kInward };
+
+/// Builds a scene triangle by triangle.
+class SceneBuilder {
+  public:
+    /// Index of the new material.
+    std::uint32_t add(const Material& material);
+    /// Corners counter-clockwise as seen from the front.
+    void triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, std::uint32_t material);
+    void quad(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, std::uint32_t material);
+    /// An icosahedron subdivided `level` times, corners on the sphere: convex and closed.
+    void sphere(glm::vec3 centre, float radius, int level, Facing facing, std::uint32_t material);
+    void box(glm::vec3 lower, glm::vec3 upper, Facing facing, std::uint32_t material);
+
+    Scene scene;  ///< geometry and materials are filled by the calls above; the rest is the caller's
+};
+
+/// The same scene `scale` times as large, about the origin, then moved.
+Scene transformed(Scene scene, float scale, glm::vec3 offset = glm::vec3(0.0f));
+
+}  // namespace duolux::test

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+
+namespace duolux::test {
+
+/// Probability that |T| >= |t| for Student's T with `degrees` > 0 degrees of freedom (Abramowitz &
+/// Stegun, 26.7.1).
+double studentTwoSided(double t, double degrees);
+
+/// Level of each of `tests` independent tests whose family errs with probability `alpha` (Sidak, JASA 62,
+/// 1967).
+double sidakLevel(double alpha, std::size_t tests);
+
+/// An unbiased estimate of a mean.
+struct Mean {
+    double value = 0.0;
+    double variance = 0.0;  ///< of the mean
+    double degrees = 1.0;   ///< of freedom of that variance
+};
+
+/// Welch's test (Biometrika 34, 1947) that two means differ by no more than `tolerance`.
+struct Welch {
+    double t = 0.0;        ///< signed; beyond the tolerance
+    double p = 1.0;        ///< two-sided
+    double degrees = 1.0;  ///< of freedom of t (Welch-Satterthwaite)
+};
+Welch welch(const Mean& a, const Mean& b, double tolerance);
+
+}  // namespace duolux::test
