@@ -26,8 +26,9 @@ function(duolux_shader target name source)
     VERBATIM)
   add_custom_command(
     OUTPUT ${cpp}
-    COMMAND ${CMAKE_COMMAND} -DSPV=${spv} -DCPP=${cpp} -DNAME=${name} -P ${CMAKE_SOURCE_DIR}/cmake/EmbedSpirv.cmake
-    DEPENDS ${spv} ${CMAKE_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+    COMMAND ${CMAKE_COMMAND} -DSPV=${spv} -DCPP=${cpp} -DNAME=${name}
+            -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedSpirv.cmake
+    DEPENDS ${spv} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedSpirv.cmake
     VERBATIM)
   target_sources(${target} PRIVATE ${cpp})
 endfunction()

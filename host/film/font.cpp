@@ -4,21 +4,21 @@
 // DUOLUX_FONT_FILE is set by CMake.
 asm(".pushsection .rodata\n"
     ".balign 16\n"
-    "duoluxFontBegin:\n"
+    "kFontBegin:\n"
     ".incbin \"" DUOLUX_FONT_FILE
     "\"\n"
-    "duoluxFontEnd:\n"
+    "kFontEnd:\n"
     ".popsection\n");
 
 namespace duolux {
 
 namespace {
-extern "C" const unsigned char duoluxFontBegin[];
-extern "C" const unsigned char duoluxFontEnd[];
+extern "C" const unsigned char kFontBegin[];
+extern "C" const unsigned char kFontEnd[];
 }  // namespace
 
 std::span<const unsigned char> fontFile() {
-    return {duoluxFontBegin, duoluxFontEnd};
+    return {kFontBegin, kFontEnd};
 }
 
 }  // namespace duolux

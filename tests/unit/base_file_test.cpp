@@ -12,7 +12,6 @@ namespace duolux {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class FileTest : public testing::Test {
   protected:
