@@ -21,29 +21,36 @@ struct RenderProgress {
 struct RenderControl {
     /// Called after every dispatch from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
-    /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the same.
+    /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the
+    /// same.
     std::optional<double> timeLimit;
-    /// Largest number of samples of one pixel in one dispatch, and of pixels in one dispatch; 0: chosen by measured
-    /// time. Neither changes a bit of the image.
+    /// Largest number of samples of one pixel in one dispatch, and of pixels in one dispatch; 0: chosen by
+    /// measured time. Neither changes a bit of the image.
     std::uint32_t maxSamplesPerDispatch = 0;
     std::uint32_t maxPixelsPerDispatch = 0;
 };
 
 struct RenderStatistics {
-    double buildSeconds = 0.0;      ///< BVH
+    double buildSeconds = 0.0;            ///< BVH
     double uploadSeconds = 0.0;
-    double pipelineSeconds = 0.0;   ///< creating the pipeline (and compiling, on drivers that do it then)
-    double renderSeconds = 0.0;     ///< wall, first dispatch to last
-    double deviceSeconds = 0.0;     ///< by timestamps, summed over dispatches
+    double pipelineSeconds = 0.0;         ///< creating the pipeline (and compiling, on drivers that do it then)
+    double firstDispatchSeconds = 0.0;    ///< wall, of the first dispatch (some drivers compile in it)
+    double renderSeconds = 0.0;           ///< wall, first dispatch to last
+    double deviceSeconds = 0.0;           ///< by timestamps, summed over dispatches
+    double longestDispatchSeconds = 0.0;  ///< by timestamps
     std::uint64_t dispatches = 0;
-    std::uint64_t samples = 0;      ///< pixel samples taken
+    std::uint64_t dispatchesCutShort = 0;  ///< thrown away and traced again in smaller parts
+    std::uint64_t samples = 0;             ///< pixel samples taken
     std::uint64_t cameraRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
-    std::uint64_t nonFiniteSamples = 0;   ///< dropped; 0 unless something is wrong
-    std::uint64_t deviceBytes = 0;        ///< peak
-    /// Radiance (mean over pixels and channels, displayed) that the last allowed bounce added, and the one before it.
+    std::uint64_t nonFiniteSamples = 0;    ///< dropped; 0 unless something is wrong
+    bool filmOverflowed = false;           ///< some sum did not fit 64 bits and was clamped
+    std::uint64_t deviceBytes = 0;         ///< peak
+    /// Radiance (mean over pixels and channels, displayed) that the last allowed bounce added, and the one
+    /// before it.
     double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0, meanRadiance = 0.0;
-    std::uint32_t effectiveBounces = 0;   ///< scattering events that can contribute: at most the scene's `bounces`
-    bool stopped = false;                 ///< ended before all samples were taken
+    std::uint32_t effectiveBounces =
+        0;                 ///< scattering events that can contribute: at most the scene's `bounces`
+    bool stopped = false;  ///< ended before all samples were taken
 
     /// The bounce limit cut off a series whose terms were not yet negligible (more than 1 % of the image).
     bool stillGrowing() const;

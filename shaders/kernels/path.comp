@@ -346,6 +346,8 @@ void main() {
 
         bool emissionOnly = onlyEmissionLeft(path) && path.scatterings + path.crossings > 0u;
         if (emissionOnly && !kEmitterTree) path.ended = true;
+        // Emitters along a ray that nothing else can stop are found in their own small tree.
+        bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
         if (path.ended && !shadow.pending) {
             vec3 total = gathered.light.invisible + gathered.light.visible;
             if (total.x + total.y + total.z < kInfinity) {
@@ -359,15 +361,13 @@ void main() {
             gathered = Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0);
             sampleIndex += 1u;
             path = cameraPath(pixel, samplePair(kSampler, pixel, sampleIndex, kDimensionPixel, params.seed));
-            emissionOnly = false;
+            inEmitterTree = false;
             cameraRays += sampleIndex < endSample ? 1u : 0u;
-        } else if (!shadow.pending) {
-            bounceRays += 1u;
+        } else {
+            shadowRays += shadow.pending ? 1u : 0u;
+            bounceRays += !shadow.pending && !inEmitterTree ? 1u : 0u;
+            emitterRays += !shadow.pending && inEmitterTree ? 1u : 0u;
         }
-        shadowRays += shadow.pending ? 1u : 0u;
-
-        bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
-        if (inEmitterTree && !shadow.pending) emitterRays += 1u;
         ray = traversalStart(inEmitterTree && !shadow.pending ? params.emitterRoot : 0u,
                              shadow.pending ? shadow.origin : path.origin,
                              shadow.pending ? shadow.direction : path.direction, shadow.pending ? shadow.t : path.t,
@@ -388,5 +388,5 @@ void main() {
     result.emitterRays = emitterRays;
     result.lastBounce = lastBounce;
     result.previousBounce = previousBounce;
-    results[slot] = result;
+    results[dispatch.firstResult + slot] = result;
 }

@@ -30,7 +30,7 @@ DUOLUX_CONST uint kSpecOneReflectance = 9u;     // all materials share PathParam
 DUOLUX_CONST uint kSpecSmoothNormals = 10u;
 DUOLUX_CONST uint kSpecSampler = 11u;           // 0: Owen-scrambled Sobol, 1: independent
 DUOLUX_CONST uint kSpecHasLights = 12u;         // there is an emitter that next-event estimation can sample
-DUOLUX_CONST uint kSpecSampleEmitterTree = 13u; // there is a tree of emitters
+DUOLUX_CONST uint kSpecEmitterTree = 13u;       // something emits: there is a tree of emitters
 
 // What a segment between two points does to light, scene-wide.
 DUOLUX_CONST uint kTransmittanceZero = 0u;      // every T is 0: any surface hides what is behind it
@@ -69,6 +69,7 @@ struct DispatchParams {
     uint slotCount;
     uint firstSample;
     uint sampleCount;
+    uint firstResult;    // where in the results the first slot's goes
 };
 
 // Sums over the samples of one slot (pixel) in one dispatch. 64-bit two's complement numbers as (low, high).

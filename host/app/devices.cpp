@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "host/app/commands.h"
+#include "host/base/error.h"
+#include "host/vk/device.h"
+
+namespace duolux {
+
+namespace {
+
+void printDevice(const DeviceInfo& device, bool chosen) {
+    constexpr double kMebibyte = 1 << 20;
+    fmt::print("{} {}: {}\n", chosen ? "*" : " ", device.index, device.name);
+    fmt::print("     kind                   {}\n", device.kind == DeviceKind::kCpu ? "cpu" : "gpu");
+    fmt::print("     driver                 {}\n", device.driver);
+    fmt::print("     Vulkan                 {}.{}.{}\n", VK_API_VERSION_MAJOR(device.apiVersion),
+               VK_API_VERSION_MINOR(device.apiVersion), VK_API_VERSION_PATCH(device.apiVersion));
+    fmt::print("     subgroup size          {}\n", device.subgroupSize);
+    fmt::print("     memory                 {:.0f} MiB\n",
+               static_cast<double>(device.memoryBytes) / kMebibyte);
+    fmt::print("     storage buffer range   {:.0f} MiB\n",
+               static_cast<double>(device.maxStorageBufferRange) / kMebibyte);
+    fmt::print("     texel buffer           {} texels of 16 bytes ({} triangles at most)\n",
+               device.maxTexelBufferElements, device.maxTexelBufferElements / 3);
+    if (!device.unusable.empty()) fmt::print("     unusable               lacks {}\n", device.unusable);
+}
+
+void runDevices() {
+    const std::vector<DeviceInfo> devices = listDevices();
+    const DeviceInfo* chosen = nullptr;
+    try {
+        chosen = &selectDevice(devices, "");
+    } catch (const MachineError&) {
+        // None is usable: the list says why.
+    }
+    for (const DeviceInfo& device : devices)
+        printDevice(device, &device == chosen);
+    if (chosen == nullptr) throw MachineError("no usable Vulkan device");
+    fmt::print("\n* is used unless --device says otherwise.\n");
+}
+
+}  // namespace
+
+void addDevicesCommand(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices, and which one would be used");
+    command->callback([] { runDevices(); });
+}
+
+}  // namespace duolux

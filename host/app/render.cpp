@@ -1,0 +1,247 @@
+#include "host/render/render.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "host/app/commands.h"
+#include "host/app/interrupt.h"
+#include "host/app/report.h"
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/base/progress.h"
+#include "host/base/version.h"
+#include "host/film/image.h"
+#include "host/scene/load.h"
+
+namespace duolux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct RenderOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string preset, blend, size, sampler, device, report;
+    std::optional<std::uint32_t> spp, bounces, seed;
+    std::optional<double> timeLimit;
+    float exposure = 0.0f;
+    bool quiet = false;
+};
+
+/// "A<separator>B" as two numbers.
+template <typename T>
+std::optional<std::pair<T, T>> parsePair(const std::string& text, char separator) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string::npos) return std::nullopt;
+    std::pair<T, T> values{};
+    const char* middle = text.data() + at;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), middle, values.first);
+    const auto second = std::from_chars(middle + 1, end, values.second);
+    if (first.ec != std::errc() || first.ptr != middle || second.ec != std::errc() || second.ptr != end) {
+        return std::nullopt;
+    }
+    return values;
+}
+
+Reflectance parseBlend(const std::string& text) {
+    const auto values = parsePair<float>(text, ',');
+    if (!values || !(values->first >= 0.0f) || !(values->second >= 0.0f) || !std::isfinite(values->first) ||
+        !std::isfinite(values->second)) {
+        throw UsageError(
+            fmt::format("--blend {}: expected two numbers >= 0 as T,O, for example 0.5,1", text));
+    }
+    return blendReflectance(values->first, values->second);
+}
+
+void parseSize(const std::string& text, RenderSettings& settings) {
+    const auto values = parsePair<std::uint32_t>(text, 'x');
+    if (!values || values->first < 1 || values->second < 1 || values->first > 16384 ||
+        values->second > 16384) {
+        throw UsageError(
+            fmt::format("--size {}: expected WIDTHxHEIGHT, each from 1 to 16384, for example 640x480", text));
+    }
+    settings.width = values->first;
+    settings.height = values->second;
+}
+
+/// The command line's changes to the scene.
+void applyOverrides(const RenderOptions& options, Scene& scene) {
+    RenderSettings& settings = scene.render;
+    if (!options.preset.empty()) scene.reflectance = *presetReflectance(options.preset);
+    if (!options.blend.empty()) scene.reflectance = parseBlend(options.blend);
+    if (!options.size.empty()) parseSize(options.size, settings);
+    if (!options.sampler.empty()) {
+        settings.sampler = options.sampler == "sobol" ? Sampler::kSobol : Sampler::kIndependent;
+    }
+    settings.spp = options.spp.value_or(settings.spp);
+    settings.bounces = options.bounces.value_or(settings.bounces);
+    settings.seed = options.seed.value_or(settings.seed);
+}
+
+/// What is wrong with an output file is said before the rendering, not after.
+void checkOutputs(const std::vector<std::string>& outputs) {
+    for (const std::string& output : outputs) {
+        if (!isImagePath(output)) {
+            throw UsageError(fmt::format("-o {}: unknown image format; expected .exr, .png or .pfm", output));
+        }
+        const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+        if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+            throw UsageError(fmt::format("-o {}: there is no folder {}", output, folder.string()));
+        }
+    }
+}
+
+void writeReport(const std::string& file, const std::string& text) {
+    if (file == "-") {
+        std::fputs(text.c_str(), stdout);
+        return;
+    }
+    writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
+        std::ofstream out(temporary);
+        out << text;
+        out.close();
+        if (!out) throw MachineError(fmt::format("{}: cannot write", file));
+    });
+}
+
+ImageOptions imageOptions(const RenderOptions& options, const Scene& scene,
+                          const RenderStatistics& statistics) {
+    const double pixels = static_cast<double>(scene.render.width) * scene.render.height;
+    ImageOptions out;
+    out.display = scene.display;
+    out.exposure = options.exposure;
+    out.metadata = {{"reflectance", describeReflectance(scene.reflectance)},
+                    {"spp", fmt::format("{:g}", static_cast<double>(statistics.samples) / pixels)},
+                    {"seed", fmt::format("{}", scene.render.seed)},
+                    {"bounces", fmt::format("{}", scene.render.bounces)},
+                    {"scene hash", scene.hash},
+                    {"version", fmt::format("duolux {} ({})", versionString(), commitString())}};
+    return out;
+}
+
+void warn(const std::string& text) {
+    fmt::print(stderr, "duolux: warning: {}\n", text);
+}
+
+void warnAboutResult(const Scene& scene, const RenderStatistics& statistics) {
+    if (statistics.stillGrowing()) {
+        warn(fmt::format(
+            "the {} bounces allowed were not enough: the last one still added {:.2g} % of the image's "
+            "radiance (the one before it {:.2g} %), so this is the picture of that many bounces",
+            scene.render.bounces, 100.0 * statistics.lastBounceRadiance / statistics.meanRadiance,
+            100.0 * statistics.previousBounceRadiance / statistics.meanRadiance));
+    }
+    if (statistics.nonFiniteSamples > 0) {
+        warn(fmt::format("{} samples were not finite and were dropped", statistics.nonFiniteSamples));
+    }
+    if (statistics.filmOverflowed) warn("some pixels are brighter than the film can hold and were clamped");
+}
+
+void runRender(const RenderOptions& options) {
+    const Clock::time_point start = Clock::now();
+    std::vector<std::string> outputs = options.outputs;
+    if (outputs.empty()) outputs.push_back(std::filesystem::path(options.scene).stem().string() + ".png");
+    checkOutputs(outputs);
+    catchInterrupts();
+
+    StageSeconds seconds;
+    Scene scene = loadScene(options.scene);
+    applyOverrides(options, scene);
+    for (const std::string& warning : scene.warnings)
+        warn(warning);
+    seconds.load = secondsSince(start);
+
+    Device device(options.device);
+    RenderControl control;
+    control.timeLimit = options.timeLimit;
+    Progress progress(Progress::styleForStderr(options.quiet));
+    control.onProgress = [&](const RenderProgress& p) {
+        progress.update({static_cast<double>(p.samplesDone), static_cast<double>(p.samplesTotal), p.seconds,
+                         options.timeLimit});
+        return !interrupted();
+    };
+    const RenderOutput output = render(device, scene, control);
+    progress.finish();
+
+    const Clock::time_point writeStart = Clock::now();
+    const RadianceImage image = output.film.resolve();
+    const ImageOptions imageSettings = imageOptions(options, scene, output.statistics);
+    for (const std::string& file : outputs)
+        writeImage(file, image, imageSettings);
+    seconds.write = secondsSince(writeStart);
+    seconds.total = secondsSince(start);
+
+    warnAboutResult(scene, output.statistics);
+    if (!options.report.empty()) {
+        writeReport(options.report, renderReport(scene, device.info(), output.statistics, seconds));
+    }
+    if (interrupted()) {
+        throw Error(
+            ExitStatus::kInterrupted,
+            fmt::format("interrupted: wrote what there is, {} of {} samples", output.statistics.samples,
+                        std::uint64_t{scene.render.width} * scene.render.height * scene.render.spp));
+    }
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Render a scene to images");
+    command->add_option("SCENE", options->scene, "The scene: .obj (with its .mtl) or .json")->required();
+    command
+        ->add_option(
+            "-o,--output", options->outputs,
+            "Image to write: .exr, .png or .pfm; may be given several times (default: SCENE's name + .png)")
+        ->expected(1)
+        ->take_all();
+    std::vector<std::string> names;
+    for (const Preset& preset : presets())
+        names.emplace_back(preset.name);
+    CLI::Option* preset =
+        command->add_option("--preset", options->preset, "Scene-wide reflectance of the paper")
+            ->check(CLI::IsMember(names));
+    command
+        ->add_option("--blend", options->blend,
+                     "Scene-wide reflectance: any point T,O of the square between the presets "
+                     "(local 1,0; global 0,1; shadowless 1,1; one-bounce 0,0)")
+        ->excludes(preset);
+    command->add_option("--spp", options->spp, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
+    command->add_option("--size", options->size, "Image size as WIDTHxHEIGHT");
+    command->add_option("--bounces", options->bounces, "Largest number of scattering events on a path")
+        ->check(CLI::Range(0, 65535));
+    command->add_option("--seed", options->seed, "Seed of the random numbers");
+    command
+        ->add_option("--sampler", options->sampler,
+                     "Samples: Owen-scrambled Sobol points, or independent ones")
+        ->check(CLI::IsMember({"sobol", "independent"}));
+    command->add_option(
+        "--device", options->device,
+        "cpu, gpu, an index or a part of a name, see 'duolux devices' (default: a GPU if there is one)");
+    command
+        ->add_option("--time-limit", options->timeLimit,
+                     "Stop after this many seconds of rendering with what has been accumulated")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened")
+        ->check(CLI::Range(-64.0, 64.0));
+    command->add_option("--report", options->report,
+                        "Write statistics as JSON to this file (-: standard output)");
+    command->add_flag("--quiet", options->quiet, "No progress on standard error");
+    command->callback([options] { runRender(*options); });
+}
+
+}  // namespace duolux

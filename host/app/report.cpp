@@ -1,0 +1,80 @@
+#include "host/app/report.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/base/version.h"
+
+namespace duolux {
+
+namespace {
+
+std::uint64_t peakHostBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
+}
+
+double perSecond(std::uint64_t count, double seconds) {
+    return seconds > 0.0 ? static_cast<double>(count) / seconds * 1e-6 : 0.0;
+}
+
+}  // namespace
+
+std::string renderReport(const Scene& scene, const DeviceInfo& device, const RenderStatistics& statistics,
+                         const StageSeconds& seconds) {
+    const std::uint64_t rays =
+        statistics.cameraRays + statistics.bounceRays + statistics.shadowRays + statistics.emitterRays;
+    nlohmann::ordered_json report;
+    report["version"] = 1;
+    report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};
+    report["scene"] = {{"file", scene.source.string()},
+                       {"hash", scene.hash},
+                       {"triangles", scene.geometry.triangles.size()},
+                       {"materials", scene.materials.size()}};
+    report["settings"] = {{"width", scene.render.width},
+                          {"height", scene.render.height},
+                          {"spp", scene.render.spp},
+                          {"bounces", scene.render.bounces},
+                          {"effective_bounces", statistics.effectiveBounces},
+                          {"seed", scene.render.seed},
+                          {"sampler", scene.render.sampler == Sampler::kSobol ? "sobol" : "independent"},
+                          {"integrator", "path"},
+                          {"reflectance", describeReflectance(scene.reflectance)}};
+    report["device"] = {{"name", device.name},
+                        {"driver", device.driver},
+                        {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"}};
+    report["seconds"] = {{"load", seconds.load},
+                         {"build", statistics.buildSeconds},
+                         {"upload", statistics.uploadSeconds},
+                         {"pipeline", statistics.pipelineSeconds},
+                         {"first_dispatch", statistics.firstDispatchSeconds},
+                         {"render", statistics.renderSeconds},
+                         {"write", seconds.write},
+                         {"total", seconds.total}};
+    report["device_seconds"] = {{"path", statistics.deviceSeconds}};
+    report["dispatches"] = {{"count", statistics.dispatches},
+                            {"longest_seconds", statistics.longestDispatchSeconds},
+                            {"cut_short", statistics.dispatchesCutShort}};
+    report["samples"] = {{"taken", statistics.samples},
+                         {"non_finite", statistics.nonFiniteSamples},
+                         {"overflowed_film", statistics.filmOverflowed},
+                         {"complete", !statistics.stopped}};
+    report["rays"] = {{"camera", statistics.cameraRays},
+                      {"bounce", statistics.bounceRays},
+                      {"shadow", statistics.shadowRays},
+                      {"emitter", statistics.emitterRays},
+                      {"total", rays}};
+    report["Mrays_per_second"] = perSecond(rays, statistics.renderSeconds);
+    report["Msamples_per_second"] = perSecond(statistics.samples, statistics.renderSeconds);
+    report["radiance"] = {{"mean", statistics.meanRadiance},
+                          {"last_bounce", statistics.lastBounceRadiance},
+                          {"previous_bounce", statistics.previousBounceRadiance},
+                          {"still_growing", statistics.stillGrowing()}};
+    report["peak_bytes"] = {{"host", peakHostBytes()}, {"device", statistics.deviceBytes}};
+    report["warnings"] = scene.warnings;
+    return report.dump(2) + "\n";
+}
+
+}  // namespace duolux

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "host/render/render.h"
+#include "host/scene/scene.h"
+#include "host/vk/device.h"
+
+namespace duolux {
+
+/// Seconds of the stages that only the command knows.
+struct StageSeconds {
+    double load = 0.0, write = 0.0, total = 0.0;
+};
+
+/// The statistics of a render as JSON (format version 1), with a newline at the end.
+std::string renderReport(const Scene& scene, const DeviceInfo& device, const RenderStatistics& statistics,
+                         const StageSeconds& seconds);
+
+}  // namespace duolux

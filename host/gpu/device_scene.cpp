@@ -1,0 +1,165 @@
+#include "host/gpu/device_scene.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "host/base/parallel.h"
+#include "host/bvh/wide_bvh.h"
+#include "host/gpu/lights.h"
+#include "shaders/shared/bvh_layout.h"
+
+namespace duolux {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::uint32_t octahedralEncode(glm::vec3 n) {
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    glm::vec2 e(n.x, n.y);
+    if (n.z < 0.0f) {
+        e = {(1.0f - std::abs(n.y)) * (n.x >= 0.0f ? 1.0f : -1.0f),
+             (1.0f - std::abs(n.x)) * (n.y >= 0.0f ? 1.0f : -1.0f)};
+    }
+    const auto snorm = [](float x) {
+        return static_cast<std::uint32_t>(std::lround(glm::clamp(x, -1.0f, 1.0f) * 32767.0f)) & 0xffffu;
+    };
+    return snorm(e.x) | snorm(e.y) << 16;
+}
+
+bool isSmooth(const Geometry& geometry, std::uint32_t triangle) {
+    return !geometry.normals.empty() && geometry.normalIndices[triangle].x != Geometry::kNoNormal;
+}
+
+shared::DeviceTriangle deviceTriangle(const Geometry& geometry, std::uint32_t triangle,
+                                      std::uint32_t primitive) {
+    const glm::uvec3 index = geometry.triangles[triangle];
+    const std::uint32_t smooth = isSmooth(geometry, triangle) ? shared::kTriangleSmooth : 0u;
+    return {geometry.positions[index.x], primitive,
+            geometry.positions[index.y], geometry.materials[triangle] | smooth,
+            geometry.positions[index.z], 0};
+}
+
+shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t triangle) {
+    if (!isSmooth(geometry, triangle)) return {};
+    const glm::uvec3 index = geometry.normalIndices[triangle];
+    return {{octahedralEncode(geometry.normals[index.x]), octahedralEncode(geometry.normals[index.y]),
+             octahedralEncode(geometry.normals[index.z])},
+            0};
+}
+
+/// The tree over all triangles, and behind it the one over emitters with copies of them.
+struct Trees {
+    std::vector<shared::WideNode> nodes;
+    std::vector<std::uint32_t> triangles;  // of the geometry, in the order of the leaves
+    std::vector<std::uint32_t>
+        primitives;  // per leaf entry: the entry of the same triangle in the first tree
+    std::uint32_t emitterRoot = 0;
+};
+
+Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
+    WideBvh all = buildWideBvh(geometry);
+    Trees trees{std::move(all.nodes), std::move(all.triangles), {}, 0};
+    std::vector<std::uint32_t> entryOf(geometry.triangles.size());
+    trees.primitives.resize(trees.triangles.size());
+    for (std::uint32_t i = 0; i < trees.triangles.size(); ++i) {
+        trees.primitives[i] = i;
+        entryOf[trees.triangles[i]] = i;
+    }
+    if (emitters.empty()) return trees;
+    const WideBvh second = buildWideBvh(geometry, emitters);
+    trees.emitterRoot = static_cast<std::uint32_t>(trees.nodes.size());
+    const auto firstTriangle = static_cast<std::uint32_t>(trees.triangles.size());
+    for (shared::WideNode node : second.nodes) {
+        node.childBase += trees.emitterRoot;
+        node.triangleBase += firstTriangle;
+        trees.nodes.push_back(node);
+    }
+    for (std::uint32_t triangle : second.triangles) {
+        trees.triangles.push_back(triangle);
+        trees.primitives.push_back(entryOf[triangle]);
+    }
+    return trees;
+}
+
+void storeMatrix(const LightMatrix& m, glm::vec4 (&out)[4]) {
+    out[0] = glm::vec4(m.m00, 0.0f);
+    out[1] = glm::vec4(m.m01, 0.0f);
+    out[2] = glm::vec4(m.m10, 0.0f);
+    out[3] = glm::vec4(m.m11, 0.0f);
+}
+
+std::vector<shared::DeviceMaterial> deviceMaterials(const Scene& scene, const LightTable& table) {
+    std::vector<shared::DeviceMaterial> out;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        shared::DeviceMaterial d{};
+        d.diffuse = material.diffuse;
+        d.flags = material.sides == Sides::kBoth ? shared::kMaterialTwoSided : 0u;
+        if (material.emission.any()) {
+            d.flags |= shared::kMaterialEmitsFront;
+            if (material.emission.sides == Sides::kBoth) d.flags |= shared::kMaterialEmitsBack;
+        }
+        d.invisibleEmission = material.emission.invisible;
+        d.visibleEmission = material.emission.visible;
+        d.lightPdfArea = table.pdfArea[i];
+        const Reflectance& reflectance = scene.reflectanceOf(material);
+        storeMatrix(reflectance.opaque, d.opaque);
+        storeMatrix(reflectance.transparent, d.transparent);
+        out.push_back(d);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::uint64_t DeviceScene::deviceBytes() const {
+    return nodes.allocated() + triangles.allocated() + normals.allocated() + materials.allocated() +
+           lights.allocated();
+}
+
+DeviceScene uploadScene(const Device& device, const Scene& scene) {
+    const Geometry& geometry = scene.geometry;
+    const TransportTraits traits = analyseTransport(scene);
+
+    auto start = std::chrono::steady_clock::now();
+    std::vector<std::uint32_t> emitters;
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
+        if (scene.materials[geometry.materials[i]].emission.any()) emitters.push_back(i);
+    }
+    const Trees trees = buildTrees(geometry, emitters);
+    const double buildSeconds = secondsSince(start);
+
+    start = std::chrono::steady_clock::now();
+    const LightTable table = buildLightTable(scene, traits.secondColumn);
+    std::vector<shared::DeviceTriangle> triangles(trees.triangles.size());
+    std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : trees.triangles.size());
+    parallelFor(triangles.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            triangles[i] = deviceTriangle(geometry, trees.triangles[i], trees.primitives[i]);
+            if (!normals.empty()) normals[i] = deviceNormals(geometry, trees.triangles[i]);
+        }
+    });
+    using Use = BufferUse;
+    DeviceScene out{
+        .traits = traits,
+        .hasEmitters = !emitters.empty(),
+        .hasSmoothNormals = !normals.empty(),
+        .lightCount = static_cast<std::uint32_t>(table.lights.size()),
+        .emitterRoot = trees.emitterRoot,
+        .quantum = filmQuantum(scene),
+        .buildSeconds = buildSeconds,
+        .nodes = Buffer::upload<shared::WideNode>(device, Use::kTexels, trees.nodes, "BVH nodes"),
+        .triangles = Buffer::upload<shared::DeviceTriangle>(device, Use::kTexels, triangles, "triangles"),
+        .normals = Buffer::upload<shared::DeviceNormals>(device, Use::kTexels, normals, "normals"),
+        .materials = Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels,
+                                                            deviceMaterials(scene, table), "materials"),
+        .lights = Buffer::upload<shared::DeviceLight>(device, Use::kTexels, table.lights, "lights"),
+    };
+    out.uploadSeconds = secondsSince(start);
+    return out;
+}
+
+}  // namespace duolux

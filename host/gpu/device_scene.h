@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include "host/gpu/transport.h"
+#include "host/scene/scene.h"
+#include "host/vk/buffer.h"
+#include "host/vk/device.h"
+
+namespace duolux {
+
+/// A scene in device memory, in the records of shaders/shared.
+struct DeviceScene {
+    TransportTraits traits;
+    bool hasEmitters = false;  ///< some triangle emits; then there is a tree over the emitting ones
+    bool hasSmoothNormals = false;
+    std::uint32_t lightCount = 0;  ///< triangles that next-event estimation samples
+    std::uint32_t emitterRoot = 0;
+    float quantum = 0.0f;  ///< of the film
+    double buildSeconds = 0.0, uploadSeconds = 0.0;
+
+    Buffer nodes, triangles, normals, materials, lights;
+
+    std::uint64_t deviceBytes() const;
+};
+
+/// Builds the trees and uploads everything. Throws MachineError if it does not fit the device.
+DeviceScene uploadScene(const Device& device, const Scene& scene);
+
+}  // namespace duolux

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "host/scene/scene.h"
+#include "shaders/shared/path_layout.h"
+
+namespace duolux {
+
+/// Emitting triangles with an alias table over their power, and the density it gives each material.
+struct LightTable {
+    std::vector<shared::DeviceLight> lights;
+    std::vector<float> pdfArea;  ///< per material of the scene, m^-2: 0 if it does not emit
+};
+
+/// `secondColumn`: visible emission reaches surfaces, too (else only the invisible component lights the
+/// scene).
+LightTable buildLightTable(const Scene& scene, bool secondColumn);
+
+/// Alias table (Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", 1991) of
+/// weights that are >= 0 and not all 0.
+struct AliasEntry {
+    float threshold;
+    std::uint32_t alias;
+};
+std::vector<AliasEntry> buildAliasTable(std::span<const double> weights);
+
+}  // namespace duolux

@@ -1,0 +1,108 @@
+#include "host/gpu/transport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace duolux {
+
+namespace {
+
+bool any(const glm::vec3& v) {
+    return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
+}
+
+/// Which entries of the matrices are non-zero anywhere: bit j of row i.
+struct Pattern {
+    unsigned row[2] = {0, 0};
+
+    void add(const LightMatrix& m) {
+        row[0] |= (any(m.m00) ? 1u : 0u) | (any(m.m01) ? 2u : 0u);
+        row[1] |= (any(m.m10) ? 1u : 0u) | (any(m.m11) ? 2u : 0u);
+    }
+    /// Components on which importance on the components `set` can be after this matrix.
+    unsigned after(unsigned set) const {
+        return ((set & 1) != 0 ? row[0] : 0u) | ((set & 2) != 0 ? row[1] : 0u);
+    }
+};
+
+}  // namespace
+
+std::vector<bool> usedMaterials(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (std::uint32_t m : scene.geometry.materials)
+        used[m] = true;
+    return used;
+}
+
+TransportTraits analyseTransport(const Scene& scene) {
+    const std::vector<bool> used = usedMaterials(scene);
+    TransportTraits traits;
+    Pattern opaque;
+    Pattern transparent;
+    bool identity = true;  // on the first column, where all importance is unless there is a second one
+    const Reflectance* first = nullptr;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (!used[i]) continue;
+        const Reflectance& reflectance = scene.reflectanceOf(scene.materials[i]);
+        if (first == nullptr) first = &reflectance;
+        traits.oneReflectance = traits.oneReflectance && reflectance == *first;
+        opaque.add(reflectance.opaque);
+        transparent.add(reflectance.transparent);
+        identity = identity && reflectance.transparent.m00 == glm::vec3(1.0f);
+    }
+    traits.secondColumn =
+        ((opaque.row[0] | opaque.row[1] | transparent.row[0] | transparent.row[1]) & 2) != 0;
+    traits.invisibleScatters = opaque.row[0] != 0;
+    traits.visibleScatters = opaque.row[1] != 0;
+    traits.invisibleCrosses = transparent.row[0] != 0;
+    traits.visibleCrosses = transparent.row[1] != 0;
+    if (!traits.invisibleCrosses && !traits.visibleCrosses) {
+        traits.transmittance = shared::kTransmittanceZero;
+    } else if (identity && !traits.secondColumn) {
+        traits.transmittance = shared::kTransmittanceIdentity;
+    } else {
+        traits.transmittance = shared::kTransmittanceGeneral;
+    }
+
+    // Follow the components that can carry importance until none can.
+    unsigned set = 3;
+    while (traits.effectiveBounces < scene.render.bounces) {
+        const unsigned crossed = set | transparent.after(set);
+        const unsigned scattered = opaque.after(crossed | transparent.after(crossed));
+        if (scattered == 0) break;
+        ++traits.effectiveBounces;
+        if (scattered == set) {  // goes on for ever
+            traits.effectiveBounces = scene.render.bounces;
+            break;
+        }
+        set = scattered;
+    }
+    return traits;
+}
+
+float filmQuantum(const Scene& scene) {
+    double brightest = 0.0;
+    double power = 0.0;
+    const Geometry& geometry = scene.geometry;
+    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+        const Emission& emission = scene.materials[geometry.materials[i]].emission;
+        if (!emission.any()) continue;
+        const glm::vec3 e = glm::max(emission.invisible, emission.visible);
+        const double largest = std::max({e.x, e.y, e.z});
+        brightest = std::max(brightest, largest);
+        const glm::dvec3 a = geometry.positions[geometry.triangles[i].x];
+        const glm::dvec3 b = geometry.positions[geometry.triangles[i].y];
+        const glm::dvec3 c = geometry.positions[geometry.triangles[i].z];
+        power += largest * std::numbers::pi * glm::length(glm::cross(b - a, c - a)) / 2.0;
+    }
+    if (!(brightest > 0.0)) return std::ldexp(1.0f, -30);
+    const Bounds bounds = boundsOf(geometry);
+    const glm::dvec3 size = glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower);
+    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    const double spread = area > 0.0 ? power / (std::numbers::pi * area) : brightest;
+    const double smallest = std::max(spread * 0x1p-30, brightest * 0x1p-40);
+    return static_cast<float>(std::exp2(std::clamp(std::ceil(std::log2(smallest)), -120.0, 120.0)));
+}
+
+}  // namespace duolux

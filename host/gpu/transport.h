@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+
+#include "host/scene/scene.h"
+#include "shaders/shared/path_layout.h"
+
+namespace duolux {
+
+/// What the matrices of a scene's materials can do at all; kernels are specialised on it, so that a scene
+/// does not pay for what it does not use.
+struct TransportTraits {
+    std::uint32_t transmittance = shared::kTransmittanceZero;  ///< one of shared::kTransmittance...
+    bool secondColumn = false;                                 ///< some O or T has an entry 01 or 11
+    bool invisibleScatters =
+        false;  ///< some O has an entry in row 0: importance for invisible light scatters on
+    bool visibleScatters = false;
+    bool invisibleCrosses = false;  ///< some T has an entry in row 0
+    bool visibleCrosses = false;
+    bool oneReflectance = true;  ///< all materials share one O and T
+    /// Scattering events that can contribute to a pixel: the scene's `bounces`, or fewer where the matrices
+    /// end every path earlier (1 for `local` and `one-bounce`).
+    std::uint32_t effectiveBounces = 0;
+};
+
+TransportTraits analyseTransport(const Scene& scene);
+
+/// Only materials that triangles refer to count: true at their indices.
+std::vector<bool> usedMaterials(const Scene& scene);
+
+/// The unit of the film for a scene, a power of two: a 2^-30th of the radiance that the emitted power would
+/// give if it were spread over the scene's bounds, but at least a 2^-40th of the brightest emission, so that
+/// 2^20 samples of that fit into 64 bits.
+float filmQuantum(const Scene& scene);
+
+}  // namespace duolux

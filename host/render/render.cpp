@@ -1,0 +1,245 @@
+#include "host/render/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/base/error.h"
+#include "host/gpu/device_scene.h"
+#include "host/render/path_kernel.h"
+#include "host/render/pixel_order.h"
+
+namespace duolux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A dispatch should take about this long: short enough for watchdogs and a prompt stop, long enough to hide
+// its cost.
+constexpr double kDispatchSeconds = 0.1;
+
+// Samples of a pixel in one dispatch once every pixel has its first: lanes that take several samples stay
+// busy longer.
+constexpr std::uint32_t kSamplesPerDispatch = 16;
+
+/// Cuts the work into dispatches: a first pass of one sample for every pixel, then passes of several, each
+/// pass in runs of pixels whose size follows the measured speed.
+class Schedule {
+  public:
+    Schedule(std::uint32_t slots, std::uint32_t spp, std::uint32_t maxSlots, std::uint32_t group,
+             std::uint32_t maxSamples)
+        : slots_(slots), spp_(spp), maxSlots_(maxSlots), group_(group), maxSamples_(maxSamples) {}
+
+    bool done() const { return firstSample_ >= spp_; }
+    bool inFirstPass() const { return firstSample_ == 0; }
+
+    /// The next range; secondsPerSample <= 0: not known yet.
+    WorkRange next(double secondsPerSample) {
+        const std::uint32_t samples = inFirstPass() ? 1u : std::min(maxSamples_, spp_ - firstSample_);
+        double slots =
+            secondsPerSample > 0.0 ? kDispatchSeconds / (secondsPerSample * samples) : 4.0 * group_;
+        slots = std::max(std::floor(slots / group_), 1.0) * group_;
+        const auto count = static_cast<std::uint32_t>(
+            std::min({slots, static_cast<double>(maxSlots_), static_cast<double>(slots_ - firstSlot_)}));
+        const WorkRange range{firstSlot_, count, firstSample_, samples};
+        firstSlot_ += count;
+        if (firstSlot_ == slots_) {
+            firstSlot_ = 0;
+            firstSample_ += samples;
+        }
+        return range;
+    }
+
+  private:
+    std::uint32_t slots_, spp_, maxSlots_, group_, maxSamples_;
+    std::uint32_t firstSlot_ = 0, firstSample_ = 0;
+};
+
+class Renderer {
+  public:
+    Renderer(Device& device, const Scene& scene, const RenderControl& control)
+        : device_(device),
+          scene_(scene),
+          control_(control),
+          pixels_(pixelOrder(scene.render.width, scene.render.height)),
+          deviceScene_(uploadScene(device, scene)),
+          film_(scene.render.width, scene.render.height, deviceScene_.quantum) {}
+
+    RenderOutput run() {
+        const Clock::time_point pipelineStart = Clock::now();
+        const std::uint32_t maxSlots = std::min<std::uint32_t>(
+            static_cast<std::uint32_t>(pixels_.size()),
+            control_.maxPixelsPerDispatch > 0 ? control_.maxPixelsPerDispatch : kMaxSlots);
+        PathKernel kernel(device_, deviceScene_, scene_, pixels_, maxSlots);
+        statistics_.pipelineSeconds = secondsSince(pipelineStart);
+        statistics_.buildSeconds = deviceScene_.buildSeconds;
+        statistics_.uploadSeconds = deviceScene_.uploadSeconds;
+        statistics_.effectiveBounces = deviceScene_.traits.effectiveBounces;
+        statistics_.deviceBytes = deviceScene_.deviceBytes() + kernel.deviceBytes();
+
+        trace(kernel);
+
+        const double samples = static_cast<double>(std::max<std::uint64_t>(statistics_.samples, 1));
+        statistics_.lastBounceRadiance = lastBounce_ / samples;
+        statistics_.previousBounceRadiance = previousBounce_ / samples;
+        statistics_.meanRadiance = meanDisplayed();
+        statistics_.filmOverflowed = film_.overflowed();
+        return {std::move(film_), statistics_};
+    }
+
+  private:
+    static constexpr std::uint32_t kMaxSlots = 1u << 18;
+
+    void trace(PathKernel& kernel) {
+        const std::uint32_t maxSamples =
+            control_.maxSamplesPerDispatch > 0
+                ? std::min(control_.maxSamplesPerDispatch, PathKernel::kMaxSamples)
+                : kSamplesPerDispatch;
+        Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), scene_.render.spp, kernel.maxSlots(),
+                          kernel.workgroupSize(), maxSamples);
+        start_ = Clock::now();
+        unsigned submitted = 0;
+        unsigned received = 0;
+        for (;;) {
+            // Keep two dispatches in flight, so that the device works while the host adds up.
+            while (submitted - received < 2 && !schedule.done() && !statistics_.stopped) {
+                if (outOfTime(schedule, secondsSince(start_))) {
+                    statistics_.stopped = true;
+                    break;
+                }
+                kernel.submit(submitted++ % 2, schedule.next(secondsPerSample_));
+            }
+            if (submitted == received) break;
+            receive(kernel, received++ % 2);
+            statistics_.renderSeconds = secondsSince(start_);
+            if (control_.onProgress && !schedule.done() && !statistics_.stopped) {
+                const RenderProgress progress{statistics_.samples,
+                                              std::uint64_t{scene_.render.spp} * pixels_.size(),
+                                              statistics_.renderSeconds};
+                if (!control_.onProgress(progress)) statistics_.stopped = true;
+            }
+        }
+        for (const WorkRange& range : cutShort_)
+            redo(kernel, range);
+        statistics_.renderSeconds = secondsSince(start_);
+        if (control_.onProgress) {
+            control_.onProgress({statistics_.samples, std::uint64_t{scene_.render.spp} * pixels_.size(),
+                                 statistics_.renderSeconds});
+        }
+    }
+
+    bool outOfTime(const Schedule& schedule, double elapsed) const {
+        return control_.timeLimit && !schedule.inFirstPass() &&
+               elapsed + kDispatchSeconds > *control_.timeLimit;
+    }
+
+    void receive(PathKernel& kernel, unsigned lane) {
+        const PathKernel::Results results = kernel.wait(lane);
+        if (statistics_.dispatches++ == 0) statistics_.firstDispatchSeconds = secondsSince(start_);
+        statistics_.longestDispatchSeconds =
+            std::max(statistics_.longestDispatchSeconds, results.deviceSeconds);
+        statistics_.deviceSeconds += results.deviceSeconds;
+        const double seconds = results.deviceSeconds / static_cast<double>(results.range.size());
+        if (results.deviceSeconds > 0.0) {
+            secondsPerSample_ = secondsPerSample_ > 0.0 ? 0.5 * (secondsPerSample_ + seconds) : seconds;
+        }
+        const bool complete =
+            std::all_of(results.slots.begin(), results.slots.end(),
+                        [&](const shared::SlotResult& r) { return r.completed == results.range.samples; });
+        if (complete) {
+            add(results);
+        } else {
+            cutShort_.push_back(results.range);
+            ++statistics_.dispatchesCutShort;
+        }
+    }
+
+    /// Some drivers end all loops of an invocation after a fixed number of iterations, without a word. A
+    /// dispatch that this happened to is thrown away and traced again in parts with fewer samples per
+    /// invocation.
+    void redo(PathKernel& kernel, const WorkRange& range) {
+        if (range.samples == 1) {
+            throw MachineError(
+                fmt::format("tracing paths failed on {} ({}): the driver cut a single path short; render "
+                            "with fewer bounces than {}",
+                            device_.info().name, device_.info().driver, scene_.render.bounces));
+        }
+        const std::uint32_t half = range.samples / 2;
+        for (const WorkRange& part :
+             {WorkRange{range.firstSlot, range.slots, range.firstSample, half},
+              WorkRange{range.firstSlot, range.slots, range.firstSample + half, range.samples - half}}) {
+            kernel.submit(0, part);
+            const std::size_t before = cutShort_.size();
+            receive(kernel, 0);
+            if (cutShort_.size() > before) {
+                cutShort_.pop_back();
+                redo(kernel, part);
+            }
+        }
+    }
+
+    void add(const PathKernel::Results& results) {
+        sums_.resize(results.slots.size());
+        const auto number = [](std::uint32_t low, std::uint32_t high) {
+            return static_cast<std::int64_t>(std::uint64_t{high} << 32 | low);
+        };
+        for (std::size_t i = 0; i < results.slots.size(); ++i) {
+            const shared::SlotResult& r = results.slots[i];
+            for (std::size_t c = 0; c < 3; ++c) {
+                sums_[i].invisible[c] = number(r.invisible[2 * c], r.invisible[2 * c + 1]);
+                sums_[i].visible[c] = number(r.visible[2 * c], r.visible[2 * c + 1]);
+            }
+            statistics_.nonFiniteSamples += r.nonFinite;
+            statistics_.cameraRays += r.cameraRays;
+            statistics_.bounceRays += r.bounceRays;
+            statistics_.shadowRays += r.shadowRays;
+            statistics_.emitterRays += r.emitterRays;
+            lastBounce_ += static_cast<double>(r.lastBounce);
+            previousBounce_ += static_cast<double>(r.previousBounce);
+        }
+        const std::span<const std::uint32_t> pixels(pixels_.data() + results.range.firstSlot,
+                                                    results.range.slots);
+        film_.add(pixels, sums_, results.range.samples);
+        statistics_.samples += results.range.size();
+    }
+
+    double meanDisplayed() const {
+        const RadianceImage image = film_.resolve();
+        double total = 0.0;
+        for (const glm::vec3& c : image.displayed(scene_.display))
+            total += (static_cast<double>(c.x) + static_cast<double>(c.y) + static_cast<double>(c.z)) / 3.0;
+        return total / static_cast<double>(pixels_.size());
+    }
+
+    Device& device_;
+    const Scene& scene_;
+    const RenderControl& control_;
+    std::vector<std::uint32_t> pixels_;
+    DeviceScene deviceScene_;
+    Film film_;
+    RenderStatistics statistics_;
+    Clock::time_point start_;
+    double secondsPerSample_ = 0.0;
+    double lastBounce_ = 0.0, previousBounce_ = 0.0;
+    std::vector<Film::PixelSum> sums_;
+    std::vector<WorkRange> cutShort_;
+};
+
+}  // namespace
+
+bool RenderStatistics::stillGrowing() const {
+    return lastBounceRadiance > 0.01 * std::abs(meanRadiance);
+}
+
+RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {
+    return Renderer(device, scene, control).run();
+}
+
+}  // namespace duolux

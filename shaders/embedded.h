@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+/// The kernels of shaders/kernels as SPIR-V words.
+namespace duolux::spirv {
+
+extern const std::span<const std::uint32_t> kPathKernel;
+
+}  // namespace duolux::spirv
