@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
         "Duolux renders vector-valued light (invisible, visible) through matrix-valued reflectance:\n"
         "local, global, shadowless and one-bounce illumination, and everything between, by one path tracer.",
         "duolux"};
-    app.set_version_flag("--version", fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
+    app.set_version_flag("--version",
+                         fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
     app.require_subcommand(1);
     duolux::addRenderCommand(app);
     duolux::addDevicesCommand(app);

@@ -7,7 +7,19 @@
 
 namespace duolux {
 
+namespace {
+
+/// Without the overflow that single precision has for boxes larger than 10^19.
+double halfAreaInDouble(const Aabb& box) {
+    const glm::dvec3 d = glm::dvec3(box.upper) - glm::dvec3(box.lower);
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+}  // namespace
+
 CollapsePlan::CollapsePlan(const BinaryBvh& bvh) : bvh_(bvh), recordOf_(bvh.nodes.size()) {
+    const double rootArea = halfAreaInDouble(bvh.nodes[0].bounds);
+    inverseRootArea_ = rootArea > 0.0 ? 1.0 / rootArea : 0.0;
     std::uint32_t inner = 0;
     for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
         recordOf_[i] = bvh.nodes[i].count > 1 ? inner++ : 0;
@@ -16,13 +28,16 @@ CollapsePlan::CollapsePlan(const BinaryBvh& bvh) : bvh_(bvh), recordOf_(bvh.node
     for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
         if (bvh.nodes[i].count > 1) compute(static_cast<std::uint32_t>(i));
     }
-    const float area = bvh.nodes[0].bounds.halfArea();
-    if (area > 0.0f) sahCost_ = static_cast<double>(cost(0, 1)) / static_cast<double>(area);
+    sahCost_ = static_cast<double>(cost(0, 1));
+}
+
+float CollapsePlan::relativeArea(const BinaryBvh::Node& node) const {
+    return static_cast<float>(halfAreaInDouble(node.bounds) * inverseRootArea_);
 }
 
 float CollapsePlan::cost(std::uint32_t node, int trees) const {
     const BinaryBvh::Node& n = bvh_.nodes[node];
-    if (n.count == 1) return n.bounds.halfArea() * kTriangleCost;
+    if (n.count == 1) return relativeArea(n) * kTriangleCost;
     return records_[recordOf_[node]].cost[static_cast<std::size_t>(trees - 1)];
 }
 
@@ -50,7 +65,7 @@ void CollapsePlan::compute(std::uint32_t node) {
         }
         return best;
     };
-    const float area = n.bounds.halfArea();
+    const float area = relativeArea(n);
     const float innerCost = distribute(8, record.split[7]) + area;
     const float leafCost = n.count <= shared::kMaxLeafTriangles
                                ? area * kTriangleCost * static_cast<float>(n.count)

@@ -36,6 +36,8 @@ class CollapsePlan {
     };
     static constexpr std::uint8_t kLeaf = 1, kInner = 0;
 
+    /// Of a node's box, in units of the root's: the probability that a random ray that meets the root meets the node.
+    float relativeArea(const BinaryBvh::Node& node) const;
     float cost(std::uint32_t node, int trees) const;
     void compute(std::uint32_t node);
     void collect(std::uint32_t node, int trees, Children& children) const;
@@ -43,6 +45,7 @@ class CollapsePlan {
     const BinaryBvh& bvh_;
     std::vector<std::uint32_t> recordOf_;  // inner nodes are numbered in order
     std::vector<Record> records_;
+    double inverseRootArea_ = 0.0;
     double sahCost_ = 0.0;
 };
 
