@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "host/scene/energy.h"
+
+namespace duolux {
+namespace {
+
+MaterialEnergy energyOf(const char* preset, float albedo) {
+    return materialEnergy(*presetReflectance(preset), glm::vec3(albedo));
+}
+
+TEST(Energy, FactorsOfThePresets) {
+    EXPECT_FLOAT_EQ(energyOf("global", 0.75f).factor.x, 0.75f);
+    EXPECT_FLOAT_EQ(energyOf("local", 0.75f).factor.x, 1.0f);
+    EXPECT_FLOAT_EQ(energyOf("shadowless", 0.75f).factor.x, 1.75f);
+    EXPECT_FLOAT_EQ(energyOf("one-bounce", 0.75f).factor.x, 0.0f);
+}
+
+TEST(Energy, OnlyScatteringThatRecursMayGrow) {
+    EXPECT_FALSE(energyOf("global", 0.999f).mayGrow());
+    EXPECT_TRUE(energyOf("global", 1.0f).mayGrow());
+    EXPECT_TRUE(energyOf("shadowless", 0.01f).mayGrow());
+    EXPECT_FALSE(energyOf("shadowless", 0.0f).mayGrow()) << "black surfaces only let pass";
+    EXPECT_FALSE(energyOf("local", 1.0f).mayGrow())
+        << "invisible light scatters into visible light, and ends";
+    EXPECT_FALSE(energyOf("one-bounce", 1.0f).mayGrow());
+}
+
+TEST(Energy, OffDiagonalEntriesMakeACycle) {
+    // [[0, 4], [1, 0]] has the eigenvalues +-2: what one scattering event hides the next shows.
+    Reflectance reflectance;
+    reflectance.opaque.m01 = glm::vec3(4.0f);
+    reflectance.opaque.m10 = glm::vec3(1.0f);
+    const MaterialEnergy energy = materialEnergy(reflectance, glm::vec3(1.0f, 0.5f, 0.25f));
+    EXPECT_FLOAT_EQ(energy.factor.x, 2.0f);
+    EXPECT_FLOAT_EQ(energy.factor.y, 1.0f);
+    EXPECT_FLOAT_EQ(energy.factor.z, 0.5f);
+    EXPECT_TRUE(energy.mayGrow());
+    reflectance.opaque.m01 = glm::vec3(0.0f);
+    EXPECT_FALSE(materialEnergy(reflectance, glm::vec3(1.0f)).recurs);
+    reflectance.transparent.m01 = glm::vec3(1.0f);
+    EXPECT_TRUE(materialEnergy(reflectance, glm::vec3(1.0f)).recurs) << "back by a crossing";
+}
+
+TEST(Energy, EigenvaluesOfAFullMatrix) {
+    // [[1, 2], [3, 2]]: (3 + 5) / 2 = 4.
+    Reflectance reflectance;
+    reflectance.opaque = {glm::vec3(1), glm::vec3(2), glm::vec3(3), glm::vec3(0)};
+    reflectance.transparent.m11 = glm::vec3(2);
+    EXPECT_FLOAT_EQ(materialEnergy(reflectance, glm::vec3(1.0f)).factor.x, 4.0f);
+}
+
+/// A rectangle of area 6 that emits, and a triangle of area 2 that does not.
+Scene twoAreas() {
+    Scene scene;
+    scene.geometry.positions = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 2}};
+    scene.geometry.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 4}};
+    scene.geometry.materials = {0, 0, 1};
+    scene.materials.resize(2);
+    scene.materials[0].emission = {glm::vec3(1, 2, 3), glm::vec3(0, 0, 5), Sides::kFront};
+    scene.materials[0].diffuse = glm::vec3(0.0f);
+    scene.materials[1].diffuse = glm::vec3(0.4f, 0.8f, 1.0f);
+    return scene;
+}
+
+TEST(Energy, PowerOfEmitters) {
+    Scene scene = twoAreas();
+    EmitterSummary emitters = summariseEmitters(scene);
+    EXPECT_EQ(emitters.triangles, 2u);
+    EXPECT_NEAR(emitters.area, 6.0, 1e-9);
+    EXPECT_NEAR(emitters.invisiblePower.y, 12.0 * glm::pi<double>(), 1e-9);
+    EXPECT_NEAR(emitters.visiblePower.z, 30.0 * glm::pi<double>(), 1e-9);
+    scene.materials[0].emission.sides = Sides::kBoth;
+    EXPECT_NEAR(summariseEmitters(scene).invisiblePower.y, 24.0 * glm::pi<double>(), 1e-9);
+}
+
+TEST(Energy, MeanAlbedoIsByArea) {
+    const glm::dvec3 albedo = meanAlbedo(twoAreas());
+    EXPECT_NEAR(albedo.x, 0.4 * 2 / 8, 1e-6);
+    EXPECT_NEAR(albedo.z, 1.0 * 2 / 8, 1e-6);
+}
+
+}  // namespace
+}  // namespace duolux

@@ -1,0 +1,90 @@
+#include "tests/unit/scene_files.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/error.h"
+#include "host/scene/load.h"
+
+/// Lets failures of vector comparisons be read.
+namespace glm {
+void PrintTo(const vec3& v, std::ostream* out) {
+    *out << "(" << v.x << ", " << v.y << ", " << v.z << ")";
+}
+}  // namespace glm
+
+namespace duolux::test {
+
+namespace fs = std::filesystem;
+
+const std::string_view kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+SceneFiles::SceneFiles() {
+    std::string name = (fs::temp_directory_path() / "duolux-scene-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
+    folder_ = name;
+}
+
+SceneFiles::~SceneFiles() {
+    fs::remove_all(folder_);
+}
+
+fs::path SceneFiles::write(const std::string& name, std::string_view text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+}
+
+Scene SceneFiles::load(const std::string& name) const {
+    return loadScene(folder_ / name);
+}
+
+Scene SceneFiles::loadObj(std::string_view text) const {
+    return loadScene(write("mesh.obj", text));
+}
+
+Scene SceneFiles::loadJson(std::string_view text) const {
+    return loadScene(write("scene.json", text));
+}
+
+std::string SceneFiles::errorOf(const std::string& name) const {
+    try {
+        loadScene(folder_ / name);
+    } catch (const InputError& e) {
+        std::string line = e.what();
+        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+        const std::string prefix = folder_.string() + "/";
+        EXPECT_TRUE(line.starts_with(prefix)) << line;
+        for (std::size_t at = line.find(prefix); at != std::string::npos; at = line.find(prefix)) {
+            line.erase(at, prefix.size());
+        }
+        return line;
+    }
+    ADD_FAILURE() << name << " was accepted";
+    return {};
+}
+
+std::string SceneFiles::errorOfObj(std::string_view text) const {
+    write("mesh.obj", text);
+    return errorOf("mesh.obj");
+}
+
+std::string SceneFiles::errorOfJson(std::string_view text) const {
+    write("scene.json", text);
+    return errorOf("scene.json");
+}
+
+glm::vec3 areaVector(const Geometry& geometry, std::size_t triangle) {
+    const glm::uvec3& t = geometry.triangles[triangle];
+    const glm::vec3& a = geometry.positions[t.x];
+    return 0.5f * glm::cross(geometry.positions[t.y] - a, geometry.positions[t.z] - a);
+}
+
+float totalArea(const Geometry& geometry) {
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < geometry.triangles.size(); ++i)
+        sum += glm::length(areaVector(geometry, i));
+    return sum;
+}
+
+}  // namespace duolux::test

@@ -1,0 +1,309 @@
+#include <fmt/format.h>
+
+#include "tests/unit/scene_files.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+class JsonTest : public SceneFiles {
+  protected:
+    JsonTest() {
+        write("mesh.obj",
+              "mtllib mesh.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl white\nf 1 2 3\nusemtl lamp\nf 3 2 1\n");
+        write("mesh.mtl", "newmtl white\nKd 0.5 0.6 0.7\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\n");
+    }
+
+    /// A scene of the mesh and the given further keys.
+    static std::string with(const std::string& keys) {
+        return R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}])" + (keys.empty() ? "" : ", " + keys) + "}";
+    }
+    Scene sceneWith(const std::string& keys) const { return loadJson(with(keys)); }
+    std::string errorWith(const std::string& keys) const { return errorOfJson(with(keys)); }
+
+    static const Material& material(const Scene& scene, const std::string& name) {
+        for (const Material& material : scene.materials) {
+            if (material.name == name) return material;
+        }
+        throw std::out_of_range(name);
+    }
+};
+
+TEST_F(JsonTest, Defaults) {
+    const Scene scene = sceneWith("");
+    EXPECT_EQ(scene.render.width, 512u);
+    EXPECT_EQ(scene.render.height, 512u);
+    EXPECT_EQ(scene.render.spp, 64u);
+    EXPECT_EQ(scene.render.bounces, 16u);
+    EXPECT_EQ(scene.render.sampler, Sampler::kSobol);
+    EXPECT_EQ(scene.display, glm::vec2(0, 1));
+    EXPECT_EQ(scene.reflectance, presetReflectance("global"));
+    EXPECT_EQ(scene.geometry.triangles.size(), 2u);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST_F(JsonTest, EveryKey) {
+    const Scene scene = sceneWith(R"(
+        "camera": {"position": [1, 2, 3], "target": [4, 5, -6], "up": [0, 0, 2], "vfov": 39.5},
+        "film": {"width": 640, "height": 1},
+        "render": {"spp": 16777216, "bounces": 0, "seed": 4294967295, "sampler": "independent"},
+        "display": [1, -0.5],
+        "reflectance": {"blend": [0.25, 0.75]},
+        "materials": {"white": {"diffuse": 0.25, "sides": "front", "reflectance": {"preset": "local"}},
+                      "lamp": {"emission": {"visible": [0, 0, 0.5], "sides": "both"}}})");
+    EXPECT_EQ(scene.camera.position, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene.camera.target, glm::vec3(4, 5, -6));
+    EXPECT_EQ(scene.camera.up, glm::vec3(0, 0, 2));
+    EXPECT_EQ(scene.camera.vfov, 39.5f);
+    EXPECT_EQ(scene.render.width, 640u);
+    EXPECT_EQ(scene.render.height, 1u);
+    EXPECT_EQ(scene.render.spp, 16777216u);
+    EXPECT_EQ(scene.render.bounces, 0u);
+    EXPECT_EQ(scene.render.seed, 4294967295u);
+    EXPECT_EQ(scene.render.sampler, Sampler::kIndependent);
+    EXPECT_EQ(scene.display, glm::vec2(1.0f, -0.5f));
+    EXPECT_EQ(scene.reflectance, blendReflectance(0.25f, 0.75f));
+    const Material& white = material(scene, "white");
+    EXPECT_EQ(white.diffuse, glm::vec3(0.25f));
+    EXPECT_EQ(white.sides, Sides::kFront);
+    EXPECT_EQ(white.reflectance, presetReflectance("local"));
+    const Material& lamp = material(scene, "lamp");
+    EXPECT_EQ(lamp.emission.invisible, glm::vec3(3, 2, 1)) << "what is not overridden stays as in the MTL";
+    EXPECT_EQ(lamp.emission.visible, glm::vec3(0, 0, 0.5f));
+    EXPECT_EQ(lamp.emission.sides, Sides::kBoth);
+    EXPECT_FALSE(lamp.reflectance.has_value());
+}
+
+TEST_F(JsonTest, ReflectanceMatrices) {
+    const Scene scene = sceneWith(R"("reflectance": {
+        "opaque": [[1, 2], [[3, 4, 5], 6]], "transparent": [[0.1, 0], [[0, 0.5, 1], 7]]})");
+    const Reflectance& r = scene.reflectance;
+    EXPECT_EQ(r.opaque.m00, glm::vec3(1));
+    EXPECT_EQ(r.opaque.m01, glm::vec3(2));
+    EXPECT_EQ(r.opaque.m10, glm::vec3(3, 4, 5));
+    EXPECT_EQ(r.opaque.m11, glm::vec3(6));
+    EXPECT_EQ(r.transparent.m00, glm::vec3(0.1f));
+    EXPECT_EQ(r.transparent.m10, glm::vec3(0, 0.5f, 1));
+    EXPECT_EQ(r.transparent.m11, glm::vec3(7));
+}
+
+TEST_F(JsonTest, EveryPreset) {
+    for (const Preset& preset : presets()) {
+        const Scene scene = sceneWith(fmt::format(R"("reflectance": {{"preset": "{}"}})", preset.name));
+        EXPECT_EQ(scene.reflectance, blendReflectance(preset.t, preset.o));
+    }
+}
+
+TEST_F(JsonTest, RectangleLightEmitsAlongEdge1CrossEdge2) {
+    const Scene scene = sceneWith(R"("lights": [{"type": "rectangle", "origin": [0, 5, 0], "edge1": [2, 0, 0],
+        "edge2": [0, 0, 3], "emission": {"invisible": [4, 5, 6], "visible": 0}, "reflectance": {"preset": "local"}}])");
+    ASSERT_EQ(scene.geometry.triangles.size(), 4u);
+    for (const std::size_t i : {2u, 3u}) {
+        EXPECT_THAT(areaVector(scene.geometry, i), IsNear(glm::vec3(0, -3, 0), 1e-6f));
+        const Material& light = scene.materials[scene.geometry.materials[i]];
+        EXPECT_EQ(light.name, "lights[0]");
+        EXPECT_EQ(light.diffuse, glm::vec3(0));
+        EXPECT_EQ(light.emission.invisible, glm::vec3(4, 5, 6));
+        EXPECT_EQ(light.emission.visible, glm::vec3(0));
+        EXPECT_EQ(light.emission.sides, Sides::kFront);
+        EXPECT_EQ(light.reflectance, presetReflectance("local"));
+    }
+    const Bounds bounds = boundsOf(scene.geometry);
+    EXPECT_EQ(bounds.upper, glm::vec3(2, 5, 3));
+}
+
+TEST_F(JsonTest, LightsAloneAreAScene) {
+    const Scene scene = loadJson(R"({"duolux": 1, "lights": [{"type": "rectangle", "origin": [0, 0, 0],
+        "edge1": [1, 0, 0], "edge2": [0, 1, 0], "emission": {"visible": 1}}]})");
+    EXPECT_EQ(scene.geometry.triangles.size(), 2u);
+    EXPECT_GT(scene.camera.position.z, 0.0f);
+}
+
+TEST_F(JsonTest, ObjectsShareEqualMaterials) {
+    const Scene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}, {"mesh": "mesh.obj",
+        "transform": [1,0,0,5, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})");
+    EXPECT_EQ(scene.geometry.triangles.size(), 4u);
+    EXPECT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.geometry.positions[scene.geometry.triangles[2].x], glm::vec3(5, 0, 0));
+}
+
+TEST_F(JsonTest, MeshPathsAreRelativeToTheSceneFile) {
+    std::filesystem::create_directory(folder_ / "deep");
+    write("deep/scene.json", R"({"duolux": 1, "objects": [{"mesh": "../mesh.obj"}]})");
+    EXPECT_EQ(load("deep/scene.json").geometry.triangles.size(), 2u);
+}
+
+TEST_F(JsonTest, UnknownKeysSuggestTheNearest) {
+    EXPECT_EQ(errorWith(R"("camera": {"position": [0,0,1], "target": [0,0,0], "vfow": 40})"),
+              "scene.json: camera.vfow: unknown key; did you mean \"vfov\"?");
+    EXPECT_EQ(errorWith(R"("flim": {})"), "scene.json: flim: unknown key; did you mean \"film\"?");
+    EXPECT_EQ(errorWith(R"("film": {"colour": 3})"),
+              "scene.json: film.colour: unknown key; expected one of \"width\", \"height\"");
+    EXPECT_EQ(errorWith(R"("materials": {"white": {"emision": {}}})"),
+              "scene.json: materials.white.emision: unknown key; did you mean \"emission\"?");
+    EXPECT_EQ(errorWith(R"("materials": {"wihte": {}})"),
+              "scene.json: materials.wihte: no mesh has a material of this name; did you mean \"white\"?");
+    EXPECT_EQ(errorWith(R"("reflectance": {"preset": "globl"})"),
+              "scene.json: reflectance.preset: is \"globl\"; did you mean \"global\"?");
+}
+
+TEST_F(JsonTest, SyntaxErrorsGiveLineAndColumn) {
+    EXPECT_THAT(
+        errorOfJson("{\n  \"duolux\": 1,\n  \"film\": {,}\n}\n"),
+        StartsWith("scene.json: line 3, column 12: syntax error while parsing object key - unexpected ','"));
+    EXPECT_THAT(errorOfJson(""), StartsWith("scene.json: line 1, column 1: syntax error"));
+    EXPECT_THAT(errorOfJson("{\"duolux\": 1"), StartsWith("scene.json: line 1, column 13: syntax error"));
+    EXPECT_THAT(errorOfJson("{\"duolux\": 1e999}"), HasSubstr("number overflow"));
+    EXPECT_THAT(errorOfJson("{\"duolux\": \"\xff\"}"),
+                StartsWith("scene.json: line 1, column 13: syntax error"));
+}
+
+TEST_F(JsonTest, DuplicateKeysAreErrors) {
+    EXPECT_EQ(errorWith(R"("film": {"width": 3, "height": 3, "width": 4})"),
+              "scene.json: film.width: the key appears twice; expected it once");
+    EXPECT_EQ(errorWith(R"("lights": [{}, {"type": 1, "type": 1}])"),
+              "scene.json: lights[1].type: the key appears twice; expected it once");
+    EXPECT_THAT(errorWith(R"("objects": [])"), HasSubstr("objects: the key appears twice"));
+}
+
+TEST_F(JsonTest, Version) {
+    EXPECT_EQ(errorOfJson("{}"),
+              "scene.json: \"duolux\" is missing; expected \"duolux\": 1, the version of the format");
+    EXPECT_THAT(errorOfJson(R"({"duolux": 2})"),
+                HasSubstr("duolux: is 2; expected a whole number from 1 to 1"));
+    EXPECT_THAT(errorOfJson("[1]"), HasSubstr("is an array of 1; expected an object"));
+}
+
+TEST_F(JsonTest, CameraIsChecked) {
+    const auto error = [&](const std::string& keys) { return errorWith("\"camera\": {" + keys + "}"); };
+    const std::string at = R"("position": [0, 0, 5], "target": [0, 0, 0])";
+    EXPECT_THAT(error(at + R"(, "up": [0, 0, 3])"),
+                HasSubstr("camera: up is along the view; expected a direction"));
+    EXPECT_THAT(error(at + R"(, "up": [0, 0, 0])"), HasSubstr("camera: up has no direction"));
+    EXPECT_THAT(error(R"("position": [0, 5, 0], "target": [0, 0, 0])"), HasSubstr("camera: up is missing"));
+    EXPECT_THAT(error(R"("position": [1, 1, 1], "target": [1, 1, 1])"),
+                HasSubstr("camera: position and target are the same"));
+    EXPECT_THAT(error(R"("position": [1, 1, 1])"), HasSubstr("camera: \"target\" is missing"));
+    EXPECT_THAT(error(at + R"(, "vfov": 180)"),
+                HasSubstr("camera.vfov: is 180; expected the full vertical angle"));
+    EXPECT_THAT(error(at + R"(, "vfov": 0)"), HasSubstr("camera.vfov: is 0"));
+    EXPECT_THAT(error(at + R"(, "vfov": "wide")"), HasSubstr("camera.vfov: is \"wide\""));
+    EXPECT_THAT(error(R"("position": [1, 1], "target": [0, 0, 0])"),
+                HasSubstr("camera.position: is an array of 2; expected [x, y, z]"));
+    EXPECT_THAT(error(R"("position": [1, null, 1], "target": [0, 0, 0])"),
+                HasSubstr("camera.position[1]: is null"));
+    EXPECT_THAT(error(R"("position": [1e30, 0, 1], "target": [0, 0, 0])"),
+                HasSubstr("camera.position[0]: is 1e+30; expected [x, y, z], at most 1e+09"));
+}
+
+TEST_F(JsonTest, NumbersAreChecked) {
+    EXPECT_THAT(errorWith(R"("film": {"width": 0})"),
+                HasSubstr("film.width: is 0; expected a whole number from 1 to 16384"));
+    EXPECT_THAT(errorWith(R"("film": {"width": 16385})"), HasSubstr("film.width: is 16385"));
+    EXPECT_THAT(errorWith(R"("film": {"height": 1.5})"), HasSubstr("film.height: is 1.5"));
+    EXPECT_THAT(errorWith(R"("film": [])"), HasSubstr("film: is an array of 0; expected an object"));
+    EXPECT_THAT(errorWith(R"("render": {"spp": -1})"), HasSubstr("render.spp: is -1"));
+    EXPECT_THAT(errorWith(R"("render": {"spp": 16777217})"), HasSubstr("render.spp: is 16777217"));
+    EXPECT_THAT(errorWith(R"("render": {"bounces": 65536})"), HasSubstr("render.bounces: is 65536"));
+    EXPECT_THAT(errorWith(R"("render": {"seed": 4294967296})"), HasSubstr("render.seed: is 4294967296"));
+    EXPECT_THAT(errorWith(R"("render": {"spp": true})"), HasSubstr("render.spp: is true"));
+    EXPECT_THAT(errorWith(R"("render": {"sampler": "halton"})"),
+                HasSubstr("render.sampler: is \"halton\"; expected one of \"sobol\", \"independent\""));
+    EXPECT_THAT(errorWith(R"("display": [1])"),
+                HasSubstr("display: is an array of 1; expected [invisible, visible]"));
+}
+
+TEST_F(JsonTest, ReflectancesAreChecked) {
+    const auto error = [&](const std::string& value) { return errorWith("\"reflectance\": " + value); };
+    EXPECT_THAT(error("{}"), HasSubstr("reflectance: is empty; expected {\"preset\": name}"));
+    EXPECT_THAT(error(R"({"preset": "local", "blend": [0, 0]})"),
+                HasSubstr("reflectance: mixes several kinds"));
+    EXPECT_THAT(error(R"({"opaque": [[1, 0], [0, 0]]})"),
+                HasSubstr("reflectance: \"transparent\" is missing"));
+    EXPECT_THAT(error(R"({"blend": [0.5]})"), HasSubstr("reflectance.blend: is an array of 1"));
+    EXPECT_THAT(error(R"({"blend": [-0.5, 1]})"), HasSubstr("reflectance.blend[0]: is -0.5"));
+    EXPECT_THAT(error(R"({"opaque": [[1, 0], [-1, 0]], "transparent": [[0, 0], [0, 0]]})"),
+                HasSubstr("reflectance.opaque[1][0]: is -1; expected a number or [r, g, b]"));
+    EXPECT_THAT(error(R"({"opaque": [[1, 0, 0], [1, 0]], "transparent": [[0, 0], [0, 0]]})"),
+                HasSubstr("reflectance.opaque[0]: is an array of 3; expected [[m00, m01], [m10, m11]]"));
+    EXPECT_THAT(error(R"({"opaque": [[[1, 1], 0], [1, 0]], "transparent": [[0, 0], [0, 0]]})"),
+                HasSubstr("reflectance.opaque[0][0]: is an array of 2"));
+    EXPECT_THAT(error("\"local\""), HasSubstr("reflectance: is \"local\"; expected an object"));
+}
+
+TEST_F(JsonTest, MaterialsAreChecked) {
+    const auto error = [&](const std::string& keys) {
+        return errorWith("\"materials\": {\"white\": {" + keys + "}}");
+    };
+    EXPECT_THAT(error(R"("diffuse": [1, 1.1, 1])"),
+                HasSubstr("materials.white.diffuse[1]: is 1.1; expected an albedo"));
+    EXPECT_THAT(error(R"("diffuse": "red")"), HasSubstr("materials.white.diffuse: is \"red\""));
+    EXPECT_THAT(error(R"("emission": {"invisible": -1})"),
+                HasSubstr("materials.white.emission.invisible: is -1"));
+    EXPECT_THAT(error(R"("emission": 5)"), HasSubstr("materials.white.emission: is 5; expected an object"));
+    EXPECT_THAT(error(R"("sides": "back")"),
+                HasSubstr("materials.white.sides: is \"back\"; expected one of \"front\""));
+}
+
+TEST_F(JsonTest, ObjectsAreChecked) {
+    const auto error = [&](const std::string& objects) {
+        return errorOfJson("{\"duolux\": 1, \"objects\": " + objects + "}");
+    };
+    EXPECT_THAT(error("[]"), HasSubstr("scene.json: has no triangles"));
+    EXPECT_THAT(error("{}"), HasSubstr("objects: is an object; expected an array"));
+    EXPECT_THAT(error("[{}]"), HasSubstr("objects[0]: \"mesh\" is missing"));
+    EXPECT_THAT(error(R"([{"mesh": "none.obj"}])"), HasSubstr("objects[0].mesh: there is no file none.obj"));
+    EXPECT_THAT(error(R"([{"mesh": "mesh.ply"}])"),
+                HasSubstr("objects[0].mesh: is \"mesh.ply\"; expected the path of an .obj"));
+    const auto transform = [&](const std::string& numbers) {
+        return error(R"([{"mesh": "mesh.obj", "transform": [)" + numbers + "]}]");
+    };
+    EXPECT_THAT(transform("1,0,0,0"),
+                HasSubstr("objects[0].transform: is an array of 4; expected 16 numbers"));
+    EXPECT_THAT(transform("1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,2"), HasSubstr("the last row is not 0, 0, 0, 1"));
+    EXPECT_THAT(transform("1,0,0,0, 0,1,0,0, 1,1,0,0, 0,0,0,1"),
+                HasSubstr("objects[0].transform: is singular"));
+    EXPECT_THAT(transform("0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1"), HasSubstr("is singular"));
+    EXPECT_THAT(transform("1,0,0,1e9, 0,1,0,0, 0,0,1,0, 0,0,0,1"), HasSubstr("moves the mesh out of range"));
+}
+
+TEST_F(JsonTest, LightsAreChecked) {
+    const auto error = [&](const std::string& light) { return errorWith("\"lights\": [" + light + "]"); };
+    EXPECT_THAT(error(R"({"type": "sphere"})"),
+                HasSubstr("lights[0].type: is \"sphere\"; expected one of \"rectangle\""));
+    EXPECT_THAT(error(R"({"type": "rectangle", "origin": [0,0,0]})"),
+                HasSubstr("lights[0]: \"edge1\" is missing"));
+    EXPECT_THAT(
+        error(
+            R"({"type": "rectangle", "origin": [0,0,0], "edge1": [1,0,0], "edge2": [2,0,0], "emission": {}})"),
+        HasSubstr("lights[0]: edge1 and edge2 span no area"));
+    EXPECT_THAT(error(R"({"type": "rectangle", "origin": [0,0,0], "edge1": [1,0,0], "edge2": [0,1,0]})"),
+                HasSubstr("lights[0]: \"emission\" is missing"));
+    EXPECT_THAT(errorWith(R"("lights": 3)"), HasSubstr("lights: is 3; expected an array"));
+}
+
+TEST_F(JsonTest, ErrorsInMeshesNameTheMesh) {
+    write("mesh.obj", "v 0 0\n");
+    EXPECT_EQ(errorWith(""), "mesh.obj: line 1: 2 numbers; expected \"v x y z\"");
+}
+
+TEST_F(JsonTest, NamesWithControlCharactersStayOneLine) {
+    const std::string error = errorWith(R"("a\nb\u001b[31m": 1)");
+    EXPECT_THAT(error, StartsWith("scene.json: a?b?[31m: unknown key"));
+}
+
+TEST_F(JsonTest, DeepNestingIsAnErrorLikeAnyOther) {
+    std::string text = "{\"duolux\": ";
+    for (int i = 0; i < 100'000; ++i)
+        text += '[';
+    EXPECT_THAT(errorOfJson(text), HasSubstr("syntax error"));
+    for (int i = 0; i < 100'000; ++i)
+        text += ']';
+    EXPECT_THAT(errorOfJson(text + "}"), HasSubstr("duolux: is an array of 1"));
+}
+
+}  // namespace
+}  // namespace duolux::test
