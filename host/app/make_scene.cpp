@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
     std::string name;
-    std::uint64_t triangles = 500'000;
+    std::int64_t triangles = 500'000;
     std::string folder;
 };
 
@@ -25,13 +25,13 @@ void makeScene(const Options& options) {
         throw UsageError(
             fmt::format("make-scene: no scene is called \"{}\"; expected two-spheres", options.name));
     }
-    if (options.triangles < kFewestTwoSpheresTriangles || options.triangles > kMostTwoSpheresTriangles) {
+    constexpr std::int64_t kFewest = kFewestTwoSpheresTriangles, kMost = kMostTwoSpheresTriangles;
+    if (options.triangles < kFewest || options.triangles > kMost) {
         throw UsageError(fmt::format("--triangles: is {}; expected a whole number from {} to {}",
-                                     options.triangles, kFewestTwoSpheresTriangles,
-                                     kMostTwoSpheresTriangles));
+                                     options.triangles, kFewest, kMost));
     }
     const std::filesystem::path folder(options.folder);
-    const std::size_t written = writeTwoSpheres(folder, options.triangles);
+    const std::size_t written = writeTwoSpheres(folder, static_cast<std::size_t>(options.triangles));
     fmt::print("{}: {} triangles\n", (folder / "two_spheres.json").string(), written);
 }
 

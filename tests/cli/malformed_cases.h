@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace duolux::test {
+
+/// A scene that cannot be used: every command that loads `files[0]` must refuse it.
+struct MalformedScene {
+    const char* name;
+    std::vector<std::pair<std::string, std::string>> files;  ///< name and content; the first is the scene
+    std::vector<std::string> words;  ///< that the error line must hold: file, place, problem, remedy
+};
+
+/// A command line that cannot be meant. It may refer to good.obj, a scene without fault.
+struct WrongUsage {
+    const char* name;
+    std::vector<std::string> arguments;
+    std::vector<std::string> words;
+};
+
+std::vector<MalformedScene> malformedObjs();
+std::vector<MalformedScene> malformedMtls();
+std::vector<MalformedScene> malformedJsons();
+std::vector<WrongUsage> wrongUsages();
+
+}  // namespace duolux::test

@@ -1,0 +1,84 @@
+#include "tests/cli/malformed_cases.h"
+
+namespace duolux::test {
+
+namespace {
+
+MalformedScene obj(const char* name, const std::string& text, std::vector<std::string> words) {
+    return {name, {{"mesh.obj", text}}, std::move(words)};
+}
+
+/// The MTL of a mesh that is right.
+MalformedScene mtl(const char* name, const std::string& text, std::vector<std::string> words) {
+    return {
+        name,
+        {{"mesh.obj", "mtllib mesh.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"}, {"mesh.mtl", text}},
+        std::move(words)};
+}
+
+const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+}  // namespace
+
+std::vector<MalformedScene> malformedObjs() {
+    return {
+        obj("Empty", "", {"mesh.obj: ", "has no faces", "\"f\""}),
+        obj("NoFaces", kVertices, {"mesh.obj: ", "has no faces"}),
+        obj("FlatFaces", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", {"mesh.obj: ", "zero area"}),
+        obj("ZeroByte", kVertices + std::string("f 1 2\0 3\n", 9),
+            {"mesh.obj: line 4: ", "zero byte", "text file"}),
+        obj("WordAsCoordinate", "v 0 0 zero\n" + kVertices,
+            {"mesh.obj: line 1: ", "\"zero\"", "\"v x y z\""}),
+        obj("NanAsCoordinate", kVertices + "v nan 0 0\nf 1 2 3\n",
+            {"mesh.obj: line 4: ", "\"nan\"", "finite"}),
+        obj("InfiniteCoordinate", kVertices + "v 0 -inf 0\nf 1 2 3\n",
+            {"mesh.obj: line 4: ", "\"-inf\"", "finite"}),
+        obj("HugeCoordinate", kVertices + "v 0 1e39 0\nf 1 2 3\n",
+            {"mesh.obj: line 4: ", "too large", "1e+09"}),
+        obj("TwoCoordinates", kVertices + "v 1 2\nf 1 2 3\n",
+            {"mesh.obj: line 4: ", "2 numbers", "\"v x y z\""}),
+        obj("DecimalComma", "v 0,5 0 0\n", {"mesh.obj: line 1: ", "\"0,5\""}),
+        obj("NormalOfTwo", kVertices + "vn 0 1\nf 1 2 3\n",
+            {"mesh.obj: line 4: ", "2 numbers", "\"vn x y z\""}),
+        obj("TextureOfWords", kVertices + "vt u v\nf 1 2 3\n", {"mesh.obj: line 4: ", "\"u\"", "\"vt u v\""}),
+        obj("IndexTooLarge", kVertices + "f 1 2 4\n", {"mesh.obj: line 4: ", "vertex index 4", "3 vertices"}),
+        obj("IndexZero", kVertices + "\nf 0 1 2\n", {"mesh.obj: line 5: ", "vertex index 0", "out of range"}),
+        obj("IndexTooFarBack", kVertices + "f -1 -2 -4\n",
+            {"mesh.obj: line 4: ", "index -4", "before this line"}),
+        obj("IndexBeyondIntegers", kVertices + "f 1 2 18446744073709551617\n",
+            {"mesh.obj: line 4: ", "out of range"}),
+        obj("NormalIndexTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n",
+            {"mesh.obj: line 5: ", "normal index 2", "1 normals"}),
+        obj("TextureIndexTooLarge", kVertices + "f 1/1 2/1 3/1\n",
+            {"mesh.obj: line 4: ", "texture coordinate index 1"}),
+        obj("FaceOfTwo", kVertices + "f 1 2\n", {"mesh.obj: line 4: ", "2 corners", "at least 3"}),
+        obj("FaceOfWords", kVertices + "f a b c\n", {"mesh.obj: line 4: ", "\"a\"", "1//1"}),
+        obj("FaceOfFractions", kVertices + "f 1.0 2.0 3.0\n", {"mesh.obj: line 4: ", "\"1.0\""}),
+        obj("SmoothingByWord", "s smooth\n" + kVertices + "f 1 2 3\n",
+            {"mesh.obj: line 1: ", "\"smooth\"", "\"off\""}),
+        obj("MaterialWithoutName", kVertices + "usemtl\nf 1 2 3\n",
+            {"mesh.obj: line 4: ", "\"usemtl NAME\""}),
+        obj("LibraryWithoutName", "mtllib \n" + kVertices + "f 1 2 3\n",
+            {"mesh.obj: line 1: ", "\"mtllib FILE.mtl\""}),
+        {"UnknownExtension", {{"mesh.stl", "solid\n"}}, {"mesh.stl: ", ".obj", ".json"}},
+        {"NoSuchFile", {{"none.obj", "-"}}, {"none.obj: ", "No such file"}},
+    };
+}
+
+std::vector<MalformedScene> malformedMtls() {
+    return {
+        mtl("DiffuseOfWord", "newmtl a\nKd red\n", {"mesh.mtl: line 2: ", "\"red\"", "\"Kd r g b\""}),
+        mtl("DiffuseMissing", "newmtl a\nKd\n", {"mesh.mtl: line 2: ", "0 numbers", "\"Kd r g b\""}),
+        mtl("DiffuseNegative", "newmtl a\n\nKd 1 -0.5 1\n",
+            {"mesh.mtl: line 3: ", "-0.5 is negative", ">= 0"}),
+        mtl("DiffuseInfinite", "newmtl a\nKd inf 1 1\n", {"mesh.mtl: line 2: ", "\"inf\"", "finite"}),
+        mtl("DiffuseHuge", "newmtl a\nKd 1 1 1e60\n", {"mesh.mtl: line 2: ", "too large", "0 to 1"}),
+        mtl("EmissionOfTwo", "newmtl a\nKe 1 2\n", {"mesh.mtl: line 2: ", "2 numbers", "\"Ke r g b\""}),
+        mtl("EmissionOfFour", "newmtl a\nKe 1 2 3 4\n", {"mesh.mtl: line 2: ", "4 numbers"}),
+        mtl("EmissionHuge", "newmtl a\nKe 1 2 1e30\n", {"mesh.mtl: line 2: ", "too large"}),
+        mtl("NothingDefined", "Kd 1 1 1\n", {"mesh.mtl: line 1: ", "before any newmtl"}),
+        mtl("MaterialWithoutName", "newmtl\nKd 1 1 1\n", {"mesh.mtl: line 1: ", "\"newmtl NAME\""}),
+    };
+}
+
+}  // namespace duolux::test

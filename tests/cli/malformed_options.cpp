@@ -1,0 +1,50 @@
+#include "tests/cli/malformed_cases.h"
+
+namespace duolux::test {
+
+std::vector<WrongUsage> wrongUsages() {
+    const auto render = [](const char* name, std::vector<std::string> options,
+                           std::vector<std::string> words) {
+        std::vector<std::string> arguments{"render", "good.obj", "-o", "out.png"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return WrongUsage{name, std::move(arguments), std::move(words)};
+    };
+    return {
+        {"NoCommand", {}, {"subcommand"}},
+        {"UnknownCommand", {"rendre", "good.obj"}, {}},
+        {"RenderWithoutScene", {"render"}, {"SCENE"}},
+        {"InfoWithoutScene", {"info"}, {"SCENE"}},
+        {"InfoOfTwoScenes", {"info", "good.obj", "other.obj"}, {"other.obj"}},
+        render("UnknownOption", {"--sppp", "4"}, {"--sppp"}),
+        render("SamplesZero", {"--spp", "0"}, {"--spp", "1"}),
+        render("SamplesOfWord", {"--spp", "many"}, {"--spp", "many"}),
+        render("SamplesTooMany", {"--spp", "99999999999"}, {"--spp"}),
+        render("BouncesNegative", {"--bounces", "-1"}, {"--bounces"}),
+        render("BouncesTooMany", {"--bounces", "65536"}, {"--bounces", "65535"}),
+        render("SeedNegative", {"--seed", "-1"}, {"--seed"}),
+        render("SizeOfOne", {"--size", "640"}, {"--size 640", "WIDTHxHEIGHT"}),
+        render("SizeZero", {"--size", "0x480"}, {"--size 0x480", "1 to 16384"}),
+        render("SizeHuge", {"--size", "640x16385"}, {"--size 640x16385", "16384"}),
+        render("PresetUnknown", {"--preset", "glob"}, {"--preset", "glob", "global"}),
+        render("BlendOfOne", {"--blend", "0.5"}, {"--blend 0.5", "T,O"}),
+        render("BlendNegative", {"--blend", "1,-1"}, {"--blend 1,-1", ">= 0"}),
+        render("BlendNotFinite", {"--blend", "nan,1"}, {"--blend nan,1"}),
+        render("PresetAndBlend", {"--preset", "local", "--blend", "1,1"}, {"--preset", "--blend"}),
+        render("SamplerUnknown", {"--sampler", "halton"}, {"--sampler", "halton", "sobol"}),
+        render("ExposureOfWord", {"--exposure", "bright"}, {"--exposure", "bright"}),
+        render("TimeLimitNegative", {"--time-limit", "-1"}, {"--time-limit"}),
+        render("OutputFormat", {"-o", "picture.jpg"}, {"picture.jpg", ".exr, .png or .pfm"}),
+        render("OutputFolder", {"-o", "nowhere/picture.png"}, {"nowhere"}),
+        {"MakeSceneWithoutName", {"make-scene", "-o", "new"}, {"NAME"}},
+        {"MakeSceneWithoutFolder", {"make-scene", "two-spheres"}, {"--output"}},
+        {"MakeSceneUnknown", {"make-scene", "teapot", "-o", "new"}, {"\"teapot\"", "two-spheres"}},
+        {"MakeSceneTooFew",
+         {"make-scene", "two-spheres", "--triangles", "99", "-o", "new"},
+         {"--triangles", "99", "100"}},
+        {"MakeSceneNegative",
+         {"make-scene", "two-spheres", "--triangles", "-5", "-o", "new"},
+         {"--triangles", "-5"}},
+    };
+}
+
+}  // namespace duolux::test
