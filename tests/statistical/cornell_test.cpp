@@ -33,14 +33,38 @@ Scene oneShadow() {
     return scene;
 }
 
+Scene lamps(const char* name) {
+    Scene scene = lampsCornellBox();
+    scene.reflectance = preset(name);
+    return scene;
+}
+
+/// Not square, tilted, off the axis, with a wider angle; and a point inside the square of reflectances.
+Scene tiltedView() {
+    Scene scene = boxOf(blendReflectance(0.6f, 0.4f));
+    scene.camera = {{350, 350, -400}, {250, 200, 200}, {0.4f, 1, 0.1f}, 55.0f};
+    scene.render.width = 44;
+    scene.render.height = 24;
+    return scene;
+}
+
+/// Visible light passes too, turned from invisible: every surface is seen through, and scatters.
+Scene seeThrough() {
+    return boxOf({matrix(0.5f, 0, 0.75f, 0), matrix(1, 0, 0.5f, 0)});
+}
+
 std::vector<CornellCase> cornellCases() {
     return {{"CornellLocal", boxOf(preset("local")), 4},
             {"CornellGlobal", boxOf(preset("global")), 8},
             {"CornellShadowless", boxOf(preset("shadowless")), 4},
             {"CornellOneBounce", boxOf(preset("one-bounce")), 4},
-            {"CornellBlend", boxOf(blendReflectance(0.6f, 0.4f)), 4},
+            {"CornellTiltedView", tiltedView(), 4},
+            {"CornellSeeThrough", seeThrough(), 3},
             {"CornellEmissionOnly", mixedCornellBox(), 0},
             {"CornellOneShadow", oneShadow(), 4},
+            {"CornellLampsLocal", lamps("local"), 3},
+            {"CornellLampsGlobal", lamps("global"), 3},
+            {"CornellLampsShadowless", lamps("shadowless"), 3},
             {"CornellMixed", mixedCornellBox(), 4}};
 }
 
@@ -58,9 +82,9 @@ TEST_P(Cornell, MatchesReference) {
     settings.width = cornell.scene.render.width;
     settings.height = cornell.scene.render.height;
     settings.bounces = cornell.bounces;
-    settings.samples = 1536;
+    settings.samples = 2048;
     const reference::Estimates expected = reference::trace(cornell.scene, settings);
-    expectAgreement(cornell.name, renderSeeds(cornell.scene, 64, 16), expected);
+    expectAgreement(cornell.name, renderSeeds(cornell.scene, 128, 16), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Cornell, testing::ValuesIn(cornellCases()),

@@ -7,6 +7,7 @@
 #include "host/render/render.h"
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
+#include "tests/support/exact_case.h"
 
 // The same seed gives the same bits, however the work is cut: a sample must depend on its pixel, its index
 // and the seed alone, and sums must be exact. A random state carried from one sample to the next, a sum in
@@ -71,6 +72,19 @@ INSTANTIATE_TEST_SUITE_P(All, Split,
                              return std::to_string(test.param.first) + "By" +
                                     std::to_string(test.param.second);
                          });
+
+TEST(Determinism, PathsOfManyCrossingsAreWhole) {
+    // A hundred surfaces a ray. Drivers that end long loops without a word must not end these: what was cut
+    // short is traced again, in smaller parts.
+    Scene panes = stackedPanesCase(100).scene;
+    panes.render.width = panes.render.height = 8;
+    panes.render.spp = 64;
+    RenderControl single;
+    single.maxSamplesPerDispatch = 1;
+    const Film whole = filmOf(panes);
+    EXPECT_EQ(whole.totalSamples(), 64u * 64u);
+    EXPECT_TRUE(sameBits(whole, filmOf(panes, single)));
+}
 
 TEST(Determinism, ARenderLeavesNothingBehindOnTheDevice) {
     const Film before = filmOf(scene());

@@ -47,6 +47,18 @@ void addBlocks(SceneBuilder& b) {
     b.quad({265, 0, 296}, {265, 330, 296}, {423, 330, 247}, {423, 0, 247}, kTall);
 }
 
+Material lampMaterial() {
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.diffuse = glm::vec3(0.4f);
+    lamp.emission = {{6.0f, 2.0f, 9.0f}, {1.0f, 5.0f, 3.0f}, Sides::kBoth};
+    return lamp;
+}
+
+void addLamp(SceneBuilder& builder, const Material& lamp) {
+    builder.quad({120, 300, 180}, {200, 340, 160}, {190, 420, 220}, {110, 380, 240}, builder.add(lamp));
+}
+
 SceneBuilder room() {
     SceneBuilder builder;
     addMaterials(builder);
@@ -84,14 +96,21 @@ Scene mixedCornellBox() {
     scene.materials[kGreen].reflectance = blendReflectance(0.5f, 0.5f);
     scene.materials[kGreen].sides = Sides::kFront;
 
-    Material lamp;
-    lamp.name = "lamp";
-    lamp.diffuse = glm::vec3(0.4f);
-    lamp.emission = {{6.0f, 2.0f, 9.0f}, {1.0f, 5.0f, 3.0f}, Sides::kBoth};
+    Material lamp = lampMaterial();
     lamp.reflectance = Reflectance{matrix(0.5f, 0.25f, 0.75f, 0.25f), matrix(0.25f, 0.0f, 0.5f, 0.125f)};
-    const std::uint32_t index = builder.add(lamp);
-    builder.quad({120, 300, 180}, {200, 340, 160}, {190, 420, 220}, {110, 380, 240}, index);
-    return scene;
+    addLamp(builder, lamp);
+    return builder.scene;
+}
+
+Scene lampsCornellBox() {
+    SceneBuilder builder = room();
+    addBlocks(builder);
+    addLamp(builder, lampMaterial());
+    Material glow;
+    glow.name = "glow";
+    glow.emission.visible = {0.5f, 1.0f, 2.0f};
+    builder.quad({130, 170, 65}, {82, 170, 225}, {240, 170, 272}, {290, 170, 114}, builder.add(glow));
+    return builder.scene;
 }
 
 }  // namespace duolux::test

@@ -15,6 +15,10 @@ enum CornellMaterial : std::uint32_t { kWhite, kRed, kGreen, kLight, kShort, kTa
 /// emitter of visible and invisible light hung inside.
 Scene mixedCornellBox();
 
+/// The box with three kinds of emitter: its luminaire, a two-sided pane inside, and a short block whose top
+/// glows in visible light alone. All surfaces have the scene's reflectance.
+Scene lampsCornellBox();
+
 /// The box without its blocks, its luminaire seen by the camera (the paper's eq. 11): a smooth image.
 Scene emptyCornellBox();
 

@@ -18,7 +18,8 @@ namespace {
 class ValidationListener : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
         const std::vector<std::string> messages = device().validationMessages();
-        for (std::size_t i = seen_; i < messages.size(); ++i) ADD_FAILURE() << "validation: " << messages[i];
+        for (std::size_t i = seen_; i < messages.size(); ++i)
+            ADD_FAILURE() << "validation: " << messages[i];
         seen_ = messages.size();
     }
     std::size_t seen_ = 0;

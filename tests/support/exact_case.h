@@ -33,6 +33,9 @@ std::vector<ExactCase> lambertCases();
 /// The same with something between receiver and rectangle: products of T in the order met from the receiver.
 std::vector<ExactCase> blockerCases();
 
+/// One of them, with any number of panes.
+ExactCase stackedPanesCase(int count);
+
 /// All of the above.
 std::vector<ExactCase> exactCases();
 

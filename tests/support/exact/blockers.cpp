@@ -76,6 +76,15 @@ ExactCase blocked(std::string name, const Setup& setup) {
 
 }  // namespace
 
+ExactCase stackedPanesCase(int count) {
+    Setup setup{{kOpaque, {}}, preset("global"), {}};
+    for (int i = 0; i < count; ++i) {
+        const float height = 0.7f + 1.2f * static_cast<float>(i) / static_cast<float>(count);
+        setup.panes.push_back({matrix(0.98f, 0.01f, 0.02f, 0.97f), height});
+    }
+    return blocked("BlockerStack" + std::to_string(count), setup);
+}
+
 std::vector<ExactCase> blockerCases() {
     std::vector<ExactCase> cases;
     const auto add = [&](const char* name, const Setup& setup) { cases.push_back(blocked(name, setup)); };
@@ -116,6 +125,9 @@ std::vector<ExactCase> blockerCases() {
     std::reverse(reversed.scene.geometry.triangles.begin(), reversed.scene.geometry.triangles.end());
     std::reverse(reversed.scene.geometry.materials.begin(), reversed.scene.geometry.materials.end());
     cases.push_back(std::move(reversed));
+    // Two panes at the same place are two panes, and nothing limits their number.
+    add("BlockerCoincident", {mixing, preset("global"), {{kAmber, 0.7f}, {kAmber, 0.7f}}});
+    cases.push_back(stackedPanesCase(24));
     // Strictly triangular T's: passing in this order leaves nothing, in the other something.
     const LightMatrix raise = matrix(0, 1, 0, 0), lower = matrix(1, 0, 0, 0);
     add("BlockerExtinct", {mixing, preset("global"), {{raise, 0.7f}, {lower, 1.3f}}});

@@ -76,16 +76,19 @@ ExactCase fromCentre(const char* name, const LightMatrix& first, const LightMatr
 }  // namespace
 
 std::vector<ExactCase> crossingCases() {
-    return {fromOutside("CrossingOutsideAB", kFirst, kSecond, Sides::kFront),
-            fromOutside("CrossingOutsideBA", kSecond, kFirst, Sides::kFront),
-            fromOutside("CrossingOutsideBothSidesAB", kFirst, kSecond, Sides::kBoth),
-            fromOutside("CrossingOutsideBothSidesBA", kSecond, kFirst, Sides::kBoth),
-            // A nilpotent T: whatever passes it twice is gone.
-            fromOutside("CrossingNilpotent", kFirst, matrix(0.0f, 1.0f, 0.0f, 0.0f), Sides::kBoth),
-            fromCentre("CrossingCentre", kFirst, kSecond, 0),
-            fromCentre("CrossingCentreAB1", kFirst, kSecond, 1),
-            fromCentre("CrossingCentreBA1", kSecond, kFirst, 1),
-            fromCentre("CrossingCentreAB12", kFirst, kSecond, 12)};
+    return {
+        fromOutside("CrossingOutsideAB", kFirst, kSecond, Sides::kFront),
+        fromOutside("CrossingOutsideBA", kSecond, kFirst, Sides::kFront),
+        fromOutside("CrossingOutsideBothSidesAB", kFirst, kSecond, Sides::kBoth),
+        fromOutside("CrossingOutsideBothSidesBA", kSecond, kFirst, Sides::kBoth),
+        // A nilpotent T: whatever passes it twice is gone.
+        fromOutside("CrossingNilpotent", kFirst, matrix(0.0f, 1.0f, 0.0f, 0.0f), Sides::kBoth),
+        // What the camera sees through, while invisible light passes as in `local`: needs no second column.
+        fromOutside("CrossingSeeThrough", matrix(1.0f, 0.0f, 1.0f, 0.0f), matrix(1.0f, 0.0f, 1.0f, 0.0f),
+                    Sides::kBoth),
+        fromCentre("CrossingCentre", kFirst, kSecond, 0), fromCentre("CrossingCentreAB1", kFirst, kSecond, 1),
+        fromCentre("CrossingCentreBA1", kSecond, kFirst, 1),
+        fromCentre("CrossingCentreAB12", kFirst, kSecond, 12)};
 }
 
 }  // namespace duolux::test

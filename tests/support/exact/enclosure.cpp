@@ -74,6 +74,7 @@ std::vector<ExactCase> enclosureCases() {
     cases.push_back(enclosure("EnclosureDeep", {preset("global"), 64}));
     // Spectral radius 1.6 in blue: each bounce returns more than it got, and six of them have a definite sum.
     cases.push_back(enclosure("EnclosureGrowing", {Reflectance{matrix(2.0f, 0.0f, 1.0f, 0.0f), {}}, 6}));
+    cases.push_back(enclosure("EnclosureDark", {preset("shadowless"), 24, Sides::kBoth, {}}));
     // Only visible light, and an O that turns it into invisible light and back.
     cases.push_back(enclosure("EnclosureExchange", {Reflectance{matrix(0.0f, 1.0f, 1.0f, 0.0f), {}},
                                                     24,

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "tests/support/closed_form.h"
 #include "tests/support/exact_case.h"
@@ -82,6 +83,12 @@ std::vector<ExactCase> furnaceCases() {
     for (std::uint32_t bounces : {0u, 1u, 2u, 6u}) {
         cases.push_back(furnace("FurnaceSolids" + std::to_string(bounces), false, bounces));
         cases.push_back(furnace("FurnacePanes" + std::to_string(bounces), true, bounces));
+    }
+    // Both components are wanted whatever is displayed.
+    for (const auto& [name, display] : {std::pair("FurnaceDisplayInvisible", glm::vec2(1.0f, 0.0f)),
+                                        std::pair("FurnaceDisplayDifference", glm::vec2(-1.0f, 0.5f))}) {
+        cases.push_back(furnace(name, true, 2));
+        cases.back().scene.display = display;
     }
     return cases;
 }
