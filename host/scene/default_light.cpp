@@ -1,6 +1,7 @@
 #include "host/scene/default_light.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/gtc/constants.hpp>
 
 #include "host/scene/compose.h"
@@ -43,7 +44,7 @@ void addDefaultLight(Scene& scene) {
     material.diffuse = glm::vec3(0.0f);
     material.emission.invisible = glm::vec3(kWhite * glm::pi<float>() * squaredDistance / (side * side));
     appendRectangle(scene, {centre - 0.5f * (edge1 + edge2), edge1, edge2}, material);
-    scene.warnings.push_back(
+    scene.warnings.emplace_back(
         "nothing emits light: a default luminaire is added above the camera, out of view");
 }
 

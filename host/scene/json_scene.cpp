@@ -4,9 +4,13 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "host/scene/compose.h"
 #include "host/scene/frame_camera.h"
@@ -94,11 +98,9 @@ glm::dmat4 readTransform(const JsonNode& node) {
     const char* const remedy = "expected 16 numbers, a 4x4 matrix row by row";
     const std::vector<JsonNode> entries = node.elements(remedy, 16);
     glm::dmat4 matrix;
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            const auto entry = static_cast<std::size_t>(4 * row + column);
-            matrix[column][row] = entries[entry].number(-kLargestCoordinate, kLargestCoordinate, remedy);
-        }
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const int row = static_cast<int>(i / 4), column = static_cast<int>(i % 4);
+        matrix[column][row] = entries[i].number(-kLargestCoordinate, kLargestCoordinate, remedy);
     }
     if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]) !=
         glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
@@ -131,7 +133,7 @@ fs::path readMeshPath(const JsonNode& node) {
     const char* const remedy = "expected the path of an .obj file, relative to the scene file";
     const fs::path path = node.text(remedy);
     if (path.extension() != ".obj" && path.extension() != ".OBJ") node.failValue(remedy);
-    const fs::path file = node.file().parent_path() / path;
+    fs::path file = node.file().parent_path() / path;
     std::error_code ec;
     if (!fs::is_regular_file(file, ec)) node.fail(fmt::format("there is no file {}", file.string()), remedy);
     return file;

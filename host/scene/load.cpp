@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/scene/compose.h"
@@ -32,7 +33,7 @@ Scene readObjScene(const std::filesystem::path& path) {
 void addMissingLight(Scene& scene, bool explicitLights) {
     if (anyEmitter(scene)) return;
     if (explicitLights) {
-        scene.warnings.push_back("nothing emits light: the picture will be black");
+        scene.warnings.emplace_back("nothing emits light: the picture will be black");
     } else {
         addDefaultLight(scene);
     }

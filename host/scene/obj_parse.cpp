@@ -4,11 +4,14 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <istream>
 #include <limits>
 #include <optional>
 #include <span>
 #include <streambuf>
+#include <vector>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"

@@ -5,7 +5,9 @@
 #include <array>
 #include <cassert>
 #include <charconv>
+#include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace duolux {
 

@@ -1,3 +1,7 @@
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "tests/cli/malformed_cases.h"
 
 namespace duolux::test {

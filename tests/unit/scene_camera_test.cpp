@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "host/scene/frame_camera.h"
 #include "tests/unit/scene_files.h"

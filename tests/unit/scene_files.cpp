@@ -2,7 +2,9 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <ostream>
 #include <stdexcept>
+#include <string_view>
 
 #include "host/base/error.h"
 #include "host/scene/load.h"

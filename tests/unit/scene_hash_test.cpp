@@ -1,5 +1,7 @@
 #include <functional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "host/scene/hash.h"
 #include "tests/unit/scene_files.h"

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "tests/unit/scene_files.h"
 
 namespace duolux::test {

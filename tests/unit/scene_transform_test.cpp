@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "host/scene/compose.h"
 #include "tests/unit/scene_files.h"

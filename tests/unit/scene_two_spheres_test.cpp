@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "host/scene/icosphere.h"
 #include "host/scene/load.h"

@@ -1,0 +1,64 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/run_program.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Command : public testing::Test {
+  protected:
+    ProgramResult run(std::vector<std::string> arguments) {
+        return runDuolux(folder_.path(), std::move(arguments));
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(Command, HelpNamesEveryCommand) {
+    const ProgramResult result = run({"--help"});
+    EXPECT_EQ(result.status, 0);
+    for (const char* command : {"render", "devices", "info", "make-scene", "sheet"}) {
+        EXPECT_THAT(result.out, HasSubstr(command));
+        const ProgramResult help = run({command, "--help"});
+        EXPECT_EQ(help.status, 0) << command;
+        EXPECT_THAT(help.out, HasSubstr(command));
+    }
+}
+
+TEST_F(Command, VersionIsOneLine) {
+    const ProgramResult result = run({"--version"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_THAT(result.out, StartsWith("duolux "));
+    EXPECT_EQ(result.out.find('\n'), result.out.size() - 1);
+}
+
+TEST_F(Command, DevicesShowsTheSoftwareDriverAndTheChoice) {
+    const ProgramResult result = run({"devices"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("llvmpipe"));
+    EXPECT_THAT(result.out, HasSubstr("subgroup size"));
+    EXPECT_THAT(result.out, HasSubstr("* 0: "));
+}
+
+TEST_F(Command, InfoTellsWhatWasLoaded) {
+    const ProgramResult result = run({"info", DUOLUX_ASSETS "/cornell/cornell.json"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    for (const char* text : {"triangles", "white", "tall", "lights", "bounds", "energy"}) {
+        EXPECT_THAT(result.out, HasSubstr(text));
+    }
+}
+
+TEST_F(Command, MakeSceneWritesASceneThatRenders) {
+    const ProgramResult made = run({"make-scene", "two-spheres", "--triangles", "2000", "-o", "scene"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const ProgramResult rendered = run(
+        {"render", "scene/two_spheres.json", "--size", "32x32", "--spp", "2", "--quiet", "-o", "out.png"});
+    EXPECT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out.png"));
+}
+
+}  // namespace
+}  // namespace duolux::test

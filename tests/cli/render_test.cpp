@@ -1,0 +1,182 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "host/film/image.h"
+#include "tests/cli/run_program.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class RenderCommand : public testing::Test {
+  protected:
+    /// `duolux render` of a scene with further arguments.
+    ProgramResult render(std::vector<std::string> arguments,
+                         const std::string& scene = DUOLUX_ASSETS "/cornell/cornell.json",
+                         std::optional<ProgramSignal> signal = std::nullopt) {
+        arguments.insert(arguments.begin(), {"render", scene});
+        return runDuolux(folder_.path(), arguments, signal);
+    }
+    RadianceImage image(const std::string& name) { return readImage(folder_.path() / name); }
+
+    /// Number of files in the folder.
+    std::size_t files() const {
+        const std::filesystem::directory_iterator begin(folder_.path());
+        return static_cast<std::size_t>(std::distance(begin, std::filesystem::directory_iterator()));
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(RenderCommand, WritesSeveralFilesOfOneRender) {
+    const ProgramResult result =
+        render({"--size", "24x16", "--spp", "4", "-o", "a.exr", "-o", "a.pfm", "-o", "a.png"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(files(), 3u);
+    const RadianceImage exr = image("a.exr");
+    const RadianceImage pfm = image("a.pfm");
+    EXPECT_EQ(exr.width, 24u);
+    EXPECT_EQ(exr.height, 16u);
+    EXPECT_EQ(exr.visible, pfm.visible);  // the displayed row is the visible one
+    EXPECT_EQ(image("a.png").width, 24u);
+}
+
+TEST_F(RenderCommand, SameSettingsGiveTheSameFile) {
+    for (const char* name : {"a.pfm", "b.pfm"}) {
+        ASSERT_EQ(render({"--size", "32x32", "--spp", "5", "-o", name}).status, 0);
+    }
+    ASSERT_EQ(render({"--size", "32x32", "--spp", "5", "--seed", "2", "-o", "c.pfm"}).status, 0);
+    EXPECT_EQ(contentsOf(folder_.path() / "a.pfm"), contentsOf(folder_.path() / "b.pfm"));
+    EXPECT_NE(contentsOf(folder_.path() / "a.pfm"), contentsOf(folder_.path() / "c.pfm"));
+}
+
+TEST_F(RenderCommand, PresetsAreCornersOfBlend) {
+    const std::vector<std::pair<std::string, std::string>> corners{
+        {"local", "1,0"}, {"global", "0,1"}, {"shadowless", "1,1"}, {"one-bounce", "0,0"}};
+    std::vector<std::string> pictures;
+    for (const auto& [preset, blend] : corners) {
+        ASSERT_EQ(
+            render({"--size", "16x16", "--spp", "2", "--bounces", "3", "--preset", preset, "-o", "a.pfm"})
+                .status,
+            0);
+        ASSERT_EQ(render({"--size", "16x16", "--spp", "2", "--bounces", "3", "--blend", blend, "-o", "b.pfm"})
+                      .status,
+                  0);
+        EXPECT_EQ(contentsOf(folder_.path() / "a.pfm"), contentsOf(folder_.path() / "b.pfm")) << preset;
+        for (const std::string& other : pictures)
+            EXPECT_NE(contentsOf(folder_.path() / "a.pfm"), other) << preset;
+        pictures.push_back(contentsOf(folder_.path() / "a.pfm"));
+    }
+}
+
+TEST_F(RenderCommand, ReportHasWhatTheContractAsksFor) {
+    const ProgramResult result =
+        render({"--size", "32x24", "--spp", "3", "--seed", "7", "--quiet", "-o", "a.png", "--report", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const nlohmann::json report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report["version"], 1);
+    EXPECT_THAT(report["scene"]["file"].get<std::string>(), HasSubstr("cornell.json"));
+    EXPECT_GT(report["scene"]["triangles"], 30);
+    EXPECT_EQ(report["settings"]["width"], 32);
+    EXPECT_EQ(report["settings"]["height"], 24);
+    EXPECT_EQ(report["settings"]["spp"], 3);
+    EXPECT_EQ(report["settings"]["seed"], 7);
+    EXPECT_EQ(report["settings"]["integrator"], "path");
+    EXPECT_EQ(report["settings"]["reflectance"], "global");
+    EXPECT_THAT(report["device"]["name"].get<std::string>(), Not(HasSubstr("\n")));
+    EXPECT_THAT(report["device"]["driver"].get<std::string>(), HasSubstr("Mesa"));
+    for (const char* stage : {"load", "build", "pipeline", "render", "write"}) {
+        EXPECT_GE(report["seconds"][stage].get<double>(), 0.0) << stage;
+    }
+    EXPECT_GT(report["device_seconds"]["path"], 0.0);
+    EXPECT_EQ(report["samples"]["taken"], 32 * 24 * 3);
+    EXPECT_EQ(report["rays"]["camera"], 32 * 24 * 3);
+    EXPECT_GT(report["rays"]["shadow"], 0);
+    EXPECT_GT(report["Mrays_per_second"], 0.0);
+    EXPECT_GT(report["Msamples_per_second"], 0.0);
+    EXPECT_GT(report["peak_bytes"]["host"], 1 << 20);
+    EXPECT_GT(report["peak_bytes"]["device"], 0);
+    EXPECT_FALSE(report["program"]["commit"].get<std::string>().empty());
+}
+
+TEST_F(RenderCommand, LocalSendsNoShadowRays) {
+    const ProgramResult result =
+        render({"--preset", "local", "--size", "16x16", "--spp", "2", "--report", "-", "-o", "a.png"});
+    ASSERT_EQ(result.status, 0);
+    const nlohmann::json report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report["rays"]["shadow"], 0);
+    EXPECT_EQ(report["settings"]["effective_bounces"], 1);
+}
+
+TEST_F(RenderCommand, SaysSoWhenTheBounceLimitCutsAGrowingSeries) {
+    const auto settings =
+        std::vector<std::string>{"--size", "32x32", "--spp", "16", "--quiet", "-o", "a.png"};
+    auto growing = settings;
+    growing.insert(growing.end(), {"--preset", "shadowless", "--bounces", "4"});
+    EXPECT_THAT(render(growing).err, HasSubstr("the 4 bounces allowed were not enough"));
+    auto converged = settings;
+    converged.insert(converged.end(), {"--preset", "global", "--bounces", "16"});
+    EXPECT_EQ(render(converged).err, "");
+    auto single = settings;
+    single.insert(single.end(), {"--preset", "one-bounce", "--bounces", "4"});
+    EXPECT_EQ(render(single).err, "");
+}
+
+TEST_F(RenderCommand, TimeLimitStopsCleanly) {
+    const ProgramResult result = render({"--size", "128x128", "--spp", "1000000", "--time-limit", "1",
+                                         "--quiet", "-o", "a.pfm", "--report", "r.json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json report = nlohmann::json::parse(contentsOf(folder_.path() / "r.json"));
+    EXPECT_FALSE(report["samples"]["complete"]);
+    EXPECT_GE(report["samples"]["taken"], 128 * 128);  // every pixel has at least one
+    // Pixels have different numbers of samples, and none is black for it.
+    const RadianceImage picture = image("a.pfm");
+    double lower = 0.0;
+    double upper = 0.0;
+    for (std::size_t i = 0; i < picture.visible.size(); ++i) {
+        (i < picture.visible.size() / 2 ? upper : lower) += static_cast<double>(picture.visible[i].x);
+    }
+    EXPECT_GT(upper, 0.0);
+    EXPECT_GT(lower, 0.0);
+}
+
+TEST_F(RenderCommand, InterruptWritesWhatThereIsAndExits130) {
+    const ProgramResult result =
+        render({"--size", "64x64", "--spp", "10000000", "--quiet", "-o", "a.pfm"},
+               DUOLUX_ASSETS "/cornell/cornell.json", ProgramSignal{SIGINT, std::chrono::milliseconds(3000)});
+    EXPECT_EQ(result.status, 130);
+    EXPECT_THAT(result.err, HasSubstr("interrupted: wrote what there is"));
+    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(image("a.pfm").width, 64u);
+}
+
+TEST_F(RenderCommand, AFailedWriteLeavesTheOldPictureAlone) {
+    const ProgramResult result = render({"--size", "16x16", "--spp", "1", "-o", "missing/a.png"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("there is no folder missing"));
+    EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(RenderCommand, UnknownDeviceIsNamedWithThoseThereAre) {
+    const ProgramResult result = render({"--device", "voodoo", "-o", "a.png"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("voodoo"));
+    EXPECT_THAT(result.err, HasSubstr("llvmpipe"));
+    EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(RenderCommand, DevicesAreChosenByKindIndexAndName) {
+    for (const char* selector : {"cpu", "0", "LLVM"}) {
+        EXPECT_EQ(render({"--size", "8x8", "--spp", "1", "--device", selector, "-o", "a.png"}).status, 0)
+            << selector;
+    }
+}
+
+}  // namespace
+}  // namespace duolux::test

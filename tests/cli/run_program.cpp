@@ -1,0 +1,62 @@
+#include "tests/cli/run_program.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+namespace duolux::test {
+
+ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                        std::optional<ProgramSignal> signal) {
+    const TemporaryFolder streams;
+    const std::string out = streams.path() / "out";
+    const std::string err = streams.path() / "err";
+    arguments.insert(arguments.begin(), DUOLUX_EXECUTABLE);
+    const pid_t child = fork();
+    if (child < 0) throw std::runtime_error("fork");
+    if (child == 0) {
+        std::vector<char*> argv;
+        for (std::string& argument : arguments)
+            argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        if (chdir(folder.c_str()) != 0) _exit(125);
+        dup2(open("/dev/null", O_RDONLY), 0);
+        dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), 1);
+        dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), 2);
+        execv(argv[0], argv.data());
+        _exit(126);
+    }
+    if (signal) {
+        std::this_thread::sleep_for(signal->after);
+        kill(child, signal->signal);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentsOf(out),
+            contentsOf(err)};
+}
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = std::filesystem::temp_directory_path() / "duolux-test-XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ec;
+    std::filesystem::remove_all(path_, ec);
+}
+
+std::string contentsOf(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace duolux::test

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "host/gpu/lights.h"
+
+namespace duolux {
+namespace {
+
+/// The probabilities that an alias table realises.
+std::vector<double> probabilities(const std::vector<AliasEntry>& table) {
+    std::vector<double> p(table.size());
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        p[i] += static_cast<double>(table[i].threshold) / static_cast<double>(table.size());
+        p[table[i].alias] +=
+            (1.0 - static_cast<double>(table[i].threshold)) / static_cast<double>(table.size());
+    }
+    return p;
+}
+
+TEST(AliasTable, RealisesItsWeights) {
+    const std::vector<std::vector<double>> cases{
+        {1}, {1, 1}, {1, 0}, {0, 0, 5, 0}, {1, 2, 3, 4, 5, 6, 7}, {1e-9, 1, 1e9}, {3, 3, 3, 3, 3, 3, 3, 3.1}};
+    for (const std::vector<double>& weights : cases) {
+        const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+        const std::vector<double> p = probabilities(buildAliasTable(weights));
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            EXPECT_NEAR(p[i], weights[i] / total, 1e-7);
+    }
+}
+
+Scene twoEmitters() {
+    Scene scene;
+    scene.geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, 2, 0}};
+    scene.geometry.triangles = {{0, 1, 2}, {0, 3, 4}, {0, 1, 4}};
+    scene.geometry.materials = {0, 1, 2};
+    scene.materials.resize(3);
+    scene.materials[0].emission = {glm::vec3(3.0f), glm::vec3(0.0f), Sides::kFront};
+    scene.materials[1].emission = {glm::vec3(1.0f), glm::vec3(5.0f), Sides::kBoth};
+    return scene;
+}
+
+TEST(LightTable, DensityIsPowerOverTotalPower) {
+    const LightTable table = buildLightTable(twoEmitters(), false);
+    ASSERT_EQ(table.lights.size(), 2u);
+    // Areas 0.5 and 2; brightness 9 and 3, the latter on both sides: powers 4.5 and 12.
+    EXPECT_FLOAT_EQ(table.pdfArea[0], 9.0f / 16.5f);
+    EXPECT_FLOAT_EQ(table.pdfArea[1], 6.0f / 16.5f);
+    EXPECT_FLOAT_EQ(table.pdfArea[2], 0.0f);
+    // The density integrates to 1 over the emitters.
+    EXPECT_FLOAT_EQ(0.5f * table.pdfArea[0] + 2.0f * table.pdfArea[1], 1.0f);
+}
+
+TEST(LightTable, VisibleEmissionCountsWhereItCanReachSurfaces) {
+    const LightTable table = buildLightTable(twoEmitters(), true);
+    // Brightness 9 and 18 on both sides: powers 4.5 and 72.
+    EXPECT_FLOAT_EQ(table.pdfArea[1], 36.0f / 76.5f);
+}
+
+TEST(LightTable, OfASceneWithVisibleEmissionOnlyIsEmpty) {
+    Scene scene = twoEmitters();
+    for (Material& material : scene.materials)
+        material.emission.invisible = glm::vec3(0.0f);
+    EXPECT_TRUE(buildLightTable(scene, false).lights.empty());
+    EXPECT_EQ(buildLightTable(scene, true).lights.size(), 1u);
+}
+
+}  // namespace
+}  // namespace duolux

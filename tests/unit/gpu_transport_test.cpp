@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/gpu/transport.h"
+
+namespace duolux {
+namespace {
+
+Scene sceneWith(const Reflectance& reflectance, std::uint32_t bounces = 16) {
+    Scene scene;
+    scene.geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    scene.geometry.triangles = {{0, 1, 2}, {2, 1, 0}};
+    scene.geometry.materials = {0, 1};
+    scene.materials.resize(2);
+    scene.materials[0].emission.invisible = glm::vec3(4.0f);
+    scene.reflectance = reflectance;
+    scene.render.bounces = bounces;
+    return scene;
+}
+
+TransportTraits traitsOf(std::string_view preset) {
+    return analyseTransport(sceneWith(*presetReflectance(preset)));
+}
+
+TEST(Transport, Presets) {
+    EXPECT_EQ(traitsOf("global").transmittance, shared::kTransmittanceZero);
+    EXPECT_EQ(traitsOf("one-bounce").transmittance, shared::kTransmittanceZero);
+    EXPECT_EQ(traitsOf("local").transmittance, shared::kTransmittanceIdentity);
+    EXPECT_EQ(traitsOf("shadowless").transmittance, shared::kTransmittanceIdentity);
+    EXPECT_EQ(traitsOf("local").effectiveBounces, 1u);
+    EXPECT_EQ(traitsOf("one-bounce").effectiveBounces, 1u);
+    EXPECT_EQ(traitsOf("global").effectiveBounces, 16u);
+    EXPECT_EQ(traitsOf("shadowless").effectiveBounces, 16u);
+    EXPECT_FALSE(traitsOf("local").invisibleScatters);
+    EXPECT_TRUE(traitsOf("local").invisibleCrosses);
+    for (const Preset& preset : presets()) {
+        EXPECT_TRUE(traitsOf(preset.name).oneReflectance);
+        EXPECT_FALSE(traitsOf(preset.name).secondColumn);
+        EXPECT_TRUE(traitsOf(preset.name).visibleScatters);
+        EXPECT_FALSE(traitsOf(preset.name).visibleCrosses);
+    }
+}
+
+TEST(Transport, PartialTransmissionIsGeneral) {
+    EXPECT_EQ(analyseTransport(sceneWith(blendReflectance(0.5f, 1.0f))).transmittance,
+              shared::kTransmittanceGeneral);
+}
+
+TEST(Transport, OneOpaqueMaterialMakesShadows) {
+    Scene scene = sceneWith(*presetReflectance("shadowless"));
+    scene.materials[1].reflectance = presetReflectance("global");
+    const TransportTraits traits = analyseTransport(scene);
+    EXPECT_EQ(traits.transmittance, shared::kTransmittanceGeneral);
+    EXPECT_FALSE(traits.oneReflectance);
+}
+
+TEST(Transport, UnusedMaterialsDoNotCount) {
+    Scene scene = sceneWith(*presetReflectance("global"));
+    scene.materials.push_back({});
+    scene.materials.back().reflectance = presetReflectance("local");
+    EXPECT_EQ(analyseTransport(scene).transmittance, shared::kTransmittanceZero);
+    EXPECT_TRUE(analyseTransport(scene).oneReflectance);
+}
+
+TEST(Transport, SecondColumn) {
+    Reflectance reflectance = *presetReflectance("global");
+    reflectance.opaque.m01 = {0.0f, 0.1f, 0.0f};
+    EXPECT_TRUE(analyseTransport(sceneWith(reflectance)).secondColumn);
+    // Identity transmittance of the invisible component is not enough then.
+    reflectance.transparent.m00 = glm::vec3(1.0f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transmittance, shared::kTransmittanceGeneral);
+}
+
+/// Importance that alternates between the components: 01 and 10 feed each other for ever, 10 alone ends after
+/// one.
+TEST(Transport, EffectiveBouncesFollowTheComponents) {
+    Reflectance reflectance;
+    reflectance.opaque.m10 = glm::vec3(1.0f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).effectiveBounces, 1u);
+    reflectance.opaque.m01 = glm::vec3(1.0f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance, 5)).effectiveBounces, 5u);
+    // A crossing that turns invisible importance into visible closes the cycle, too.
+    reflectance.opaque.m01 = glm::vec3(0.0f);
+    reflectance.transparent.m01 = glm::vec3(0.5f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance, 5)).effectiveBounces, 5u);
+    EXPECT_EQ(analyseTransport(sceneWith({})).effectiveBounces, 0u);
+}
+
+TEST(FilmQuantum, IsAPowerOfTwoThatLeavesRoom) {
+    for (float brightness : {1e-9f, 1.0f, 1e12f}) {
+        Scene scene = sceneWith({});
+        scene.materials[0].emission.invisible = glm::vec3(brightness);
+        const float quantum = filmQuantum(scene);
+        int exponent = 0;
+        EXPECT_EQ(std::frexp(quantum, &exponent), 0.5f);
+        EXPECT_LT(quantum, brightness * 0x1p-20f);
+        EXPECT_GT(quantum, brightness * 0x1p-41f);  // 2^20 samples of twice the brightness fit 63 bits
+    }
+    Scene dark = sceneWith({});
+    dark.materials[0].emission = {};
+    EXPECT_GT(filmQuantum(dark), 0.0f);
+}
+
+}  // namespace
+}  // namespace duolux
