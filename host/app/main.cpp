@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -8,12 +9,24 @@
 #include "host/app/commands.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
+#include "host/scene/nearest_name.h"
 
 namespace {
 
 int report(const char* line, duolux::ExitStatus status) {
     fmt::print(stderr, "duolux: {}\n", line);
     return static_cast<int>(status);
+}
+
+/// CLI11 does not tell an unknown command from a missing one.
+void checkCommand(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> known;
+    for (const CLI::App* command : app.get_subcommands({}))
+        known.push_back(command->get_name());
+    if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return;
+    throw duolux::UsageError(
+        fmt::format("{}: unknown command; {}", argv[1], duolux::suggestName(argv[1], known)));
 }
 
 }  // namespace
@@ -26,12 +39,16 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version",
                          fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
     app.require_subcommand(1);
+    app.get_formatter()->column_width(36);
+    app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+    app.get_formatter()->label("Subcommands", "Commands");
     duolux::addRenderCommand(app);
     duolux::addDevicesCommand(app);
     duolux::addInfoCommand(app);
     duolux::addMakeSceneCommand(app);
     duolux::addSheetCommand(app);
     try {
+        checkCommand(app, argc, argv);
         app.parse(argc, argv);
         return static_cast<int>(duolux::ExitStatus::kDone);
     } catch (const CLI::Success& e) {

@@ -19,6 +19,7 @@
 #include "host/base/progress.h"
 #include "host/base/version.h"
 #include "host/film/image.h"
+#include "host/scene/hash.h"
 #include "host/scene/load.h"
 
 namespace duolux {
@@ -67,42 +68,77 @@ Reflectance parseBlend(const std::string& text) {
     return blendReflectance(values->first, values->second);
 }
 
-void parseSize(const std::string& text, RenderSettings& settings) {
+glm::uvec2 parseSize(const std::string& text) {
     const auto values = parsePair<std::uint32_t>(text, 'x');
     if (!values || values->first < 1 || values->second < 1 || values->first > 16384 ||
         values->second > 16384) {
         throw UsageError(
             fmt::format("--size {}: expected WIDTHxHEIGHT, each from 1 to 16384, for example 640x480", text));
     }
-    settings.width = values->first;
-    settings.height = values->second;
+    return {values->first, values->second};
 }
 
-/// The command line's changes to the scene.
-void applyOverrides(const RenderOptions& options, Scene& scene) {
-    RenderSettings& settings = scene.render;
-    if (!options.preset.empty()) scene.reflectance = *presetReflectance(options.preset);
-    if (!options.blend.empty()) scene.reflectance = parseBlend(options.blend);
-    if (!options.size.empty()) parseSize(options.size, settings);
-    if (!options.sampler.empty()) {
-        settings.sampler = options.sampler == "sobol" ? Sampler::kSobol : Sampler::kIndependent;
+/// What the command line changes of a scene.
+struct Overrides {
+    std::optional<Reflectance> reflectance;
+    std::optional<glm::uvec2> size;
+    std::optional<Sampler> sampler;
+
+    void applyTo(Scene& scene, const RenderOptions& options) const {
+        RenderSettings& settings = scene.render;
+        scene.reflectance = reflectance.value_or(scene.reflectance);
+        if (size) {
+            settings.width = size->x;
+            settings.height = size->y;
+        }
+        settings.sampler = sampler.value_or(settings.sampler);
+        settings.spp = options.spp.value_or(settings.spp);
+        settings.bounces = options.bounces.value_or(settings.bounces);
+        settings.seed = options.seed.value_or(settings.seed);
+        if (reflectance) scene.hash = hashScene(scene);
     }
-    settings.spp = options.spp.value_or(settings.spp);
-    settings.bounces = options.bounces.value_or(settings.bounces);
-    settings.seed = options.seed.value_or(settings.seed);
+};
+
+/// Throws UsageError for what the options' own checks cannot tell.
+Overrides parseOverrides(const RenderOptions& options) {
+    Overrides overrides;
+    if (!options.preset.empty()) overrides.reflectance = presetReflectance(options.preset);
+    if (!options.blend.empty()) overrides.reflectance = parseBlend(options.blend);
+    if (!options.size.empty()) overrides.size = parseSize(options.size);
+    if (!options.sampler.empty()) {
+        overrides.sampler = options.sampler == "sobol" ? Sampler::kSobol : Sampler::kIndependent;
+    }
+    return overrides;
+}
+
+void checkFolderOf(std::string_view option, const std::string& file) {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+        throw UsageError(fmt::format("{} {}: there is no folder {}", option, file, folder.string()));
+    }
 }
 
 /// What is wrong with an output file is said before the rendering, not after.
-void checkOutputs(const std::vector<std::string>& outputs) {
+void checkOutputs(const std::vector<std::string>& outputs, const std::string& report) {
     for (const std::string& output : outputs) {
         if (!isImagePath(output)) {
             throw UsageError(fmt::format("-o {}: unknown image format; expected .exr, .png or .pfm", output));
         }
-        const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-        if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-            throw UsageError(fmt::format("-o {}: there is no folder {}", output, folder.string()));
-        }
+        checkFolderOf("-o", output);
     }
+    if (report != "-") checkFolderOf("--report", report);
+}
+
+/// A check that a number is in [lower, upper], which NaN is not.
+CLI::Validator between(double lower, double upper) {
+    const std::string range = fmt::format("from {:g} to {:g}", lower, upper);
+    return CLI::Validator(
+        [=](std::string& text) {
+            double value = 0.0;
+            const bool fine = CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper;
+            return fine ? std::string() : fmt::format("expected a number {}, not {}", range, text);
+        },
+        range);
 }
 
 void writeReport(const std::string& file, const std::string& text) {
@@ -155,12 +191,13 @@ void runRender(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) outputs.push_back(std::filesystem::path(options.scene).stem().string() + ".png");
-    checkOutputs(outputs);
+    checkOutputs(outputs, options.report);
+    const Overrides overrides = parseOverrides(options);
     catchInterrupts();
 
     StageSeconds seconds;
     Scene scene = loadScene(options.scene);
-    applyOverrides(options, scene);
+    overrides.applyTo(scene, options);
     for (const std::string& warning : scene.warnings)
         warn(warning);
     seconds.load = secondsSince(start);
@@ -207,6 +244,7 @@ void addRenderCommand(CLI::App& app) {
         ->add_option(
             "-o,--output", options->outputs,
             "Image to write: .exr, .png or .pfm; may be given several times (default: SCENE's name + .png)")
+        ->type_name("FILE")
         ->expected(1)
         ->take_all();
     std::vector<std::string> names;
@@ -214,32 +252,44 @@ void addRenderCommand(CLI::App& app) {
         names.emplace_back(preset.name);
     CLI::Option* preset =
         command->add_option("--preset", options->preset, "Scene-wide reflectance of the paper")
+            ->type_name("NAME")
             ->check(CLI::IsMember(names));
     command
         ->add_option("--blend", options->blend,
                      "Scene-wide reflectance: any point T,O of the square between the presets "
                      "(local 1,0; global 0,1; shadowless 1,1; one-bounce 0,0)")
+        ->type_name("T,O")
         ->excludes(preset);
-    command->add_option("--spp", options->spp, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
-    command->add_option("--size", options->size, "Image size as WIDTHxHEIGHT");
+    command->add_option("--spp", options->spp, "Samples per pixel")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 24));
+    command->add_option("--size", options->size, "Image size as WIDTHxHEIGHT")->type_name("WIDTHxHEIGHT");
     command->add_option("--bounces", options->bounces, "Largest number of scattering events on a path")
+        ->type_name("N")
         ->check(CLI::Range(0, 65535));
-    command->add_option("--seed", options->seed, "Seed of the random numbers");
+    command->add_option("--seed", options->seed, "Seed of the random numbers")->type_name("N");
     command
         ->add_option("--sampler", options->sampler,
                      "Samples: Owen-scrambled Sobol points, or independent ones")
+        ->type_name("NAME")
         ->check(CLI::IsMember({"sobol", "independent"}));
-    command->add_option(
-        "--device", options->device,
-        "cpu, gpu, an index or a part of a name, see 'duolux devices' (default: a GPU if there is one)");
+    command
+        ->add_option(
+            "--device", options->device,
+            "cpu, gpu, an index or a part of a name, see 'duolux devices' (default: a GPU if there is one)")
+        ->type_name("DEVICE");
     command
         ->add_option("--time-limit", options->timeLimit,
                      "Stop after this many seconds of rendering with what has been accumulated")
-        ->check(CLI::PositiveNumber);
+        ->type_name("SECONDS")
+        ->check(between(1e-3, 1e9));
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened")
-        ->check(CLI::Range(-64.0, 64.0));
-    command->add_option("--report", options->report,
-                        "Write statistics as JSON to this file (-: standard output)");
+        ->type_name("STOPS")
+        ->check(between(-64.0, 64.0));
+    command
+        ->add_option("--report", options->report,
+                     "Write statistics as JSON to this file (-: standard output)")
+        ->type_name("FILE");
     command->add_flag("--quiet", options->quiet, "No progress on standard error");
     command->callback([options] { runRender(*options); });
 }
