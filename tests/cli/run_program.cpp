@@ -30,6 +30,7 @@ ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::st
         dup2(open("/dev/null", O_RDONLY), 0);
         dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), 1);
         dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), 2);
+        alarm(120);  // a program that hangs fails its test
         execv(argv[0], argv.data());
         _exit(126);
     }
