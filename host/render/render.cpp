@@ -25,9 +25,12 @@ double secondsSince(Clock::time_point start) {
 // its cost.
 constexpr double kDispatchSeconds = 0.1;
 
-// Samples of a pixel in one dispatch once every pixel has its first: lanes that take several samples stay
-// busy longer.
-constexpr std::uint32_t kSamplesPerDispatch = 16;
+// Lanes that take many samples of their pixel in one dispatch stay busy longer: on two spheres of 500,000
+// triangles 48 are 1.1 to 1.15 times as fast as 16. But what is stopped early should have about as many
+// samples everywhere: a pass takes at most so many times the samples that came before it, and where a time
+// limit makes a stop likely, fewer.
+constexpr std::uint32_t kPassGrowth = 15;
+constexpr std::uint32_t kSamplesWithTimeLimit = 16;
 
 /// Cuts the work into dispatches: a first pass of one sample for every pixel, then passes of several, each
 /// pass in runs of pixels whose size follows the measured speed.
@@ -42,7 +45,8 @@ class Schedule {
 
     /// The next range; secondsPerSample <= 0: not known yet.
     WorkRange next(double secondsPerSample) {
-        const std::uint32_t samples = inFirstPass() ? 1u : std::min(maxSamples_, spp_ - firstSample_);
+        const std::uint32_t samples =
+            inFirstPass() ? 1u : std::min({maxSamples_, kPassGrowth * firstSample_, spp_ - firstSample_});
         double slots =
             secondsPerSample > 0.0 ? kDispatchSeconds / (secondsPerSample * samples) : 4.0 * group_;
         slots = std::max(std::floor(slots / group_), 1.0) * group_;
@@ -98,10 +102,8 @@ class Renderer {
     static constexpr std::uint32_t kMaxSlots = 1u << 18;
 
     void trace(PathKernel& kernel) {
-        const std::uint32_t maxSamples =
-            control_.maxSamplesPerDispatch > 0
-                ? std::min(control_.maxSamplesPerDispatch, PathKernel::kMaxSamples)
-                : kSamplesPerDispatch;
+        std::uint32_t maxSamples = control_.timeLimit ? kSamplesWithTimeLimit : PathKernel::kMaxSamples;
+        if (control_.maxSamplesPerDispatch > 0) maxSamples = std::min(maxSamples, control_.maxSamplesPerDispatch);
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), scene_.render.spp, kernel.maxSlots(),
                           kernel.workgroupSize(), maxSamples);
         start_ = Clock::now();

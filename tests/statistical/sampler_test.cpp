@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "tests/reference/tracer.h"
 #include "tests/statistical/renders.h"
@@ -26,36 +29,51 @@ Scene smoothBox(Sampler sampler) {
     return scene;
 }
 
-/// Variances over the seeds of visible green, the brightest channel to the eye.
-struct Spread {
-    double pixel = 0.0;  ///< of a pixel, mean over pixels
-    double image = 0.0;  ///< of the image's mean
-};
+/// Visible green, the brightest channel to the eye, of one pixel in all renders, less its mean.
+std::vector<double> deviations(const Renders& renders, std::size_t pixel) {
+    std::vector<double> values;
+    for (const RadianceImage& image : renders.images)
+        values.push_back(static_cast<double>(image.visible[pixel].g));
+    const double mean =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    for (double& v : values)
+        v -= mean;
+    return values;
+}
 
-Spread spreadOf(const Renders& renders) {
-    const auto count = static_cast<double>(renders.images.size());
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+/// Variance of a pixel over the seeds, mean over pixels.
+double pixelVariance(const Renders& renders) {
     const std::size_t pixels = renders.images.front().visible.size();
-    const auto variance = [&](auto&& value) {
-        double sum = 0.0, squares = 0.0;
-        for (const RadianceImage& image : renders.images)
-            sum += value(image);
-        for (const RadianceImage& image : renders.images)
-            squares += std::pow(value(image) - sum / count, 2);
-        return squares / (count - 1.0);
-    };
-    Spread spread;
+    double sum = 0.0;
     for (std::size_t i = 0; i < pixels; ++i) {
-        spread.pixel +=
-            variance([&](const RadianceImage& image) { return static_cast<double>(image.visible[i].g); });
+        const std::vector<double> d = deviations(renders, i);
+        sum += dot(d, d) / static_cast<double>(d.size() - 1);
     }
-    spread.pixel /= static_cast<double>(pixels);
-    spread.image = variance([&](const RadianceImage& image) {
-        double sum = 0.0;
-        for (const glm::vec3& v : image.visible)
-            sum += static_cast<double>(v.g);
-        return sum / static_cast<double>(pixels);
-    });
-    return spread;
+    return sum / static_cast<double>(pixels);
+}
+
+/// Correlation over the seeds of pixels that are (dx, dy) apart: mean over all such pairs, in standard errors
+/// of that mean if they are independent.
+double correlation(const Renders& renders, std::uint32_t dx, std::uint32_t dy) {
+    const std::uint32_t width = renders.images.front().width, height = renders.images.front().height;
+    double sum = 0.0, pairs = 0.0;
+    for (std::uint32_t y = 0; y + dy < height; ++y) {
+        for (std::uint32_t x = 0; x + dx < width; ++x) {
+            const std::vector<double> a = deviations(renders, std::size_t{y} * width + x),
+                                      b = deviations(renders, std::size_t{y + dy} * width + x + dx);
+            const double norms = dot(a, a) * dot(b, b);
+            if (!(norms > 0.0)) continue;
+            sum += dot(a, b) / std::sqrt(norms);
+            ++pairs;
+        }
+    }
+    // The coefficient of two independent sets of n deviations has the variance 1 / (n - 1).
+    const double degrees = static_cast<double>(renders.images.size()) - 1.0;
+    return sum / pairs * std::sqrt(pairs * degrees);
 }
 
 class BothSamplers : public testing::TestWithParam<Sampler> {};
@@ -72,11 +90,12 @@ TEST_P(BothSamplers, MeanIsThatOfTheReference) {
 }
 
 TEST_P(BothSamplers, PixelsAreNotCorrelated) {
-    // If they are independent, N times the variance of the image's mean is the mean variance of a pixel. Over
-    // 15 degrees of freedom the ratio stays below chi^2 = 44.3 / 15 with probability 0.9999. Negative
-    // correlation, as of blue noise, would be welcome.
-    const Spread spread = spreadOf(renderSeeds(smoothBox(GetParam()), 16, kSeeds));
-    EXPECT_LT(spread.image * 24 * 24 / spread.pixel, 44.3 / 15);
+    // Negative correlation, as of blue noise, would be welcome.
+    const Renders renders = renderSeeds(smoothBox(GetParam()), 16, kSeeds);
+    for (const auto& [dx, dy] :
+         {std::pair(1u, 0u), std::pair(0u, 1u), std::pair(1u, 1u), std::pair(8u, 0u), std::pair(0u, 8u)}) {
+        EXPECT_LT(correlation(renders, dx, dy), 5.0) << dx << ", " << dy;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BothSamplers, testing::Values(Sampler::kSobol, Sampler::kIndependent),
@@ -87,8 +106,8 @@ INSTANTIATE_TEST_SUITE_P(All, BothSamplers, testing::Values(Sampler::kSobol, Sam
 TEST(Samplers, IndependentNoiseFallsAsTheRootOfTheSamples) {
     // Samples of a pixel that repeat or correlate would fall more slowly. 576 pixels of 15 degrees of freedom
     // each: the ratio is 16 within a few percent, the pixels' noise not being alike.
-    const double few = spreadOf(renderSeeds(smoothBox(Sampler::kIndependent), 16, kSeeds)).pixel;
-    const double many = spreadOf(renderSeeds(smoothBox(Sampler::kIndependent), 256, kSeeds)).pixel;
+    const double few = pixelVariance(renderSeeds(smoothBox(Sampler::kIndependent), 16, kSeeds));
+    const double many = pixelVariance(renderSeeds(smoothBox(Sampler::kIndependent), 256, kSeeds));
     EXPECT_NEAR(few / many, 16.0, 3.0);
 }
 
@@ -96,8 +115,8 @@ TEST(Samplers, SobolIsLessNoisyThanIndependent) {
     // Root mean square error over pixels and seeds about the mean, at 256 samples. On a picture this smooth a
     // scrambled Sobol sequence should halve it; dimensions reused between bounces or lights, or a sequence
     // that is not stratified, would not. The ratio is known to about 2 %.
-    const double independent = spreadOf(renderSeeds(smoothBox(Sampler::kIndependent), 256, kSeeds)).pixel;
-    const double sobol = spreadOf(renderSeeds(smoothBox(Sampler::kSobol), 256, kSeeds)).pixel;
+    const double independent = pixelVariance(renderSeeds(smoothBox(Sampler::kIndependent), 256, kSeeds));
+    const double sobol = pixelVariance(renderSeeds(smoothBox(Sampler::kSobol), 256, kSeeds));
     EXPECT_LT(std::sqrt(sobol / independent), 0.8);
 }
 
