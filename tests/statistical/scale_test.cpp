@@ -56,8 +56,8 @@ TEST_P(Scale, SameImageAtAnyScale) {
     // The same seeds give the same paths, but for those that rounding sends past the other side of an edge: a
     // few in 10^5 bounces, of 64 samples a pixel. They differ by whole samples, of either sign.
     const Difference d = difference(oneRender(box()), oneRender(transformed(box(), GetParam())));
-    EXPECT_LT(d.absolute, 5e-3);
-    EXPECT_LT(std::abs(d.signedMean), 5e-4);
+    EXPECT_LT(d.absolute, 1e-3);
+    EXPECT_LT(std::abs(d.signedMean), 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scale, testing::Values(1e-2f, 0.1f, 2.0f, 100.0f, 1e3f),
@@ -67,7 +67,7 @@ TEST(Translation, SameImageFarFromTheOrigin) {
     // 20 times its size away the box's coordinates keep 19 bits.
     const Difference d =
         difference(oneRender(box()), oneRender(transformed(box(), 1.0f, {8000, -9000, 11000})));
-    EXPECT_LT(std::abs(d.signedMean), 5e-3);
+    EXPECT_LT(std::abs(d.signedMean), 1e-3);
 }
 
 /// The scaled images might all be wrong alike: the extremes are held against the reference too.
