@@ -61,6 +61,9 @@ class Schedule {
         return range;
     }
 
+    /// Fewer samples of a pixel in one dispatch from now on; at least one.
+    void limitSamples(std::uint32_t samples) { maxSamples_ = std::max(1u, std::min(maxSamples_, samples)); }
+
   private:
     std::uint32_t slots_, spp_, maxSlots_, group_, maxSamples_;
     std::uint32_t firstSlot_ = 0, firstSample_ = 0;
@@ -103,7 +106,8 @@ class Renderer {
 
     void trace(PathKernel& kernel) {
         std::uint32_t maxSamples = control_.timeLimit ? kSamplesWithTimeLimit : PathKernel::kMaxSamples;
-        if (control_.maxSamplesPerDispatch > 0) maxSamples = std::min(maxSamples, control_.maxSamplesPerDispatch);
+        if (control_.maxSamplesPerDispatch > 0)
+            maxSamples = std::min(maxSamples, control_.maxSamplesPerDispatch);
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), scene_.render.spp, kernel.maxSlots(),
                           kernel.workgroupSize(), maxSamples);
         start_ = Clock::now();
@@ -119,7 +123,9 @@ class Renderer {
                 kernel.submit(submitted++ % 2, schedule.next(secondsPerSample_));
             }
             if (submitted == received) break;
+            const std::size_t cutBefore = cutShort_.size();
             receive(kernel, received++ % 2);
+            if (cutShort_.size() > cutBefore) schedule.limitSamples(cutShort_.back().samples / 2);
             statistics_.renderSeconds = secondsSince(start_);
             if (control_.onProgress && !schedule.done() && !statistics_.stopped) {
                 const RenderProgress progress{statistics_.samples,
@@ -128,7 +134,7 @@ class Renderer {
                 if (!control_.onProgress(progress)) statistics_.stopped = true;
             }
         }
-        for (const WorkRange& range : cutShort_)
+        for (const WorkRange& range : std::exchange(cutShort_, {}))
             redo(kernel, range);
         statistics_.renderSeconds = secondsSince(start_);
         if (control_.onProgress) {
