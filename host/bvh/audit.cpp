@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -70,7 +71,7 @@ class Audit {
     }
 
     /// `ancestors`: the boxes of the children on the way here; every triangle below must lie in all of them.
-    void visit(std::size_t index, std::uint32_t level, std::vector<Box> ancestors) {
+    void visit(std::size_t index, std::uint32_t level, const std::vector<Box>& ancestors) {
         if (index >= bvh_.nodes.size()) return fail("node index {} is out of range", index);
         if (nodeSeen_[index]++ != 0) return;
         deepest_ = std::max(deepest_, level);
@@ -88,7 +89,7 @@ class Audit {
             if (inner) {
                 if (meta != (shared::kMetaInner | (24 + slot)))
                     fail("node {} slot {}: meta {:#x}", index, slot, meta);
-                visit(node.childBase + innerBefore++, level + 1, std::move(boxes));
+                visit(node.childBase + innerBefore++, level + 1, boxes);
                 continue;
             }
             const unsigned unary = meta >> 5;

@@ -40,24 +40,16 @@ class Schedule {
              std::uint32_t maxSamples)
         : slots_(slots), spp_(spp), maxSlots_(maxSlots), group_(group), maxSamples_(maxSamples) {}
 
-    bool done() const { return firstSample_ >= spp_; }
-    bool inFirstPass() const { return firstSample_ == 0; }
+    bool done() const { return passBegin_ >= spp_; }
+    bool inFirstPass() const { return passBegin_ == 0; }
 
     /// The next range; secondsPerSample <= 0: not known yet.
     WorkRange next(double secondsPerSample) {
-        const std::uint32_t samples =
-            inFirstPass() ? 1u : std::min({maxSamples_, kPassGrowth * firstSample_, spp_ - firstSample_});
-        double slots =
-            secondsPerSample > 0.0 ? kDispatchSeconds / (secondsPerSample * samples) : 4.0 * group_;
-        slots = std::max(std::floor(slots / group_), 1.0) * group_;
-        const auto count = static_cast<std::uint32_t>(
-            std::min({slots, static_cast<double>(maxSlots_), static_cast<double>(slots_ - firstSlot_)}));
-        const WorkRange range{firstSlot_, count, firstSample_, samples};
-        firstSlot_ += count;
-        if (firstSlot_ == slots_) {
-            firstSlot_ = 0;
-            firstSample_ += samples;
-        }
+        const std::uint32_t samples = std::min(maxSamples_, passEnd_ - nextSample_);
+        if (nextSample_ == passBegin_) runSlots_ = chooseSlots(secondsPerSample * samples);
+        const WorkRange range{firstSlot_, runSlots_, nextSample_, samples};
+        nextSample_ += samples;
+        if (nextSample_ == passEnd_) finishRun();
         return range;
     }
 
@@ -65,8 +57,28 @@ class Schedule {
     void limitSamples(std::uint32_t samples) { maxSamples_ = std::max(1u, std::min(maxSamples_, samples)); }
 
   private:
+    std::uint32_t chooseSlots(double secondsPerSlot) const {
+        double slots = secondsPerSlot > 0.0 ? kDispatchSeconds / secondsPerSlot : 4.0 * group_;
+        slots = std::max(std::floor(slots / group_), 1.0) * group_;
+        return static_cast<std::uint32_t>(
+            std::min({slots, static_cast<double>(maxSlots_), static_cast<double>(slots_ - firstSlot_)}));
+    }
+
+    /// All samples of the pass have been handed out for a run of slots.
+    void finishRun() {
+        firstSlot_ += runSlots_;
+        if (firstSlot_ == slots_) {
+            firstSlot_ = 0;
+            passBegin_ = passEnd_;
+            passEnd_ += std::min({maxSamples_, kPassGrowth * passBegin_, spp_ - passBegin_});
+        }
+        nextSample_ = passBegin_;
+    }
+
     std::uint32_t slots_, spp_, maxSlots_, group_, maxSamples_;
-    std::uint32_t firstSlot_ = 0, firstSample_ = 0;
+    std::uint32_t passBegin_ = 0, passEnd_ = 1;  // the samples of the pass under way
+    std::uint32_t firstSlot_ = 0, runSlots_ = 0;
+    std::uint32_t nextSample_ = 0;
 };
 
 class Renderer {
