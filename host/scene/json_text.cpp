@@ -104,6 +104,9 @@ std::string explanation(const std::string& message) {
 
 json parseJsonFile(const std::filesystem::path& path) {
     const std::string text = readFile(path);
+    if (text.empty()) {  // the library's versions word this differently
+        throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty", "expected JSON");
+    }
     try {
         return json::parse(text, KeyWatch(path.string()));
     } catch (const json::parse_error& e) {
