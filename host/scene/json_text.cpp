@@ -105,7 +105,8 @@ std::string explanation(const std::string& message) {
 json parseJsonFile(const std::filesystem::path& path) {
     const std::string text = readFile(path);
     if (text.empty()) {  // the library's versions word this differently
-        throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty", "expected JSON");
+        throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty",
+                         "expected JSON");
     }
     try {
         return json::parse(text, KeyWatch(path.string()));
