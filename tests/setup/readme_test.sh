@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# The scene file and the commands that the README shows do work. usage: readme_test.sh DUOLUX SOURCE_DIR
+set -euo pipefail
+duolux=$1
+source=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+cp "$source"/assets/cornell/cornell.{obj,mtl} .
+
+# The JSON block: indented by four, from the line of the opening brace to that of the closing one.
+sed -n '/^    {$/,/^    }$/s/^    //p' "$source/README.md" >scene.json
+grep -q '"duolux": 1' scene.json
+"$duolux" info scene.json
+"$duolux" render scene.json --size 16x16 --spp 1 --quiet -o scene.png
+
+# The command lines, with a small picture of a model that is there.
+cp cornell.obj model.obj
+sed -n 's/^    build\/duolux \([^#]*\)\(#.*\)\?$/\1/p' "$source/README.md" >commands
+(($(wc -l <commands) >= 3))
+while read -r -a arguments; do
+  extra=()
+  if [[ ${arguments[0]} == render ]]; then extra=(--time-limit 0.1 --quiet); fi
+  echo "duolux ${arguments[*]} ${extra[*]}"
+  "$duolux" "${arguments[@]}" "${extra[@]}"
+done <commands
+test -s model.png && test -s model.exr

@@ -1,0 +1,30 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "host/vk/buffer.h"
+#include "host/vk/commands.h"
+#include "host/vk/device.h"
+
+namespace duolux::test {
+namespace {
+
+/// That other tests see no message means something only if a hazard gives one.
+TEST(Validation, ReportsASynchronizationHazard) {
+    Device device("cpu", Validation::kOn);
+    const std::vector<std::uint32_t> zeros(64);
+    const Buffer buffer = Buffer::upload<std::uint32_t>(device, BufferUse::kStorage, zeros, "zeros");
+    runOnce(device, "filling", [&](const vk::raii::CommandBuffer& commands) {
+        commands.fillBuffer(buffer.handle(), 0, 256, 1);
+    });
+    EXPECT_THAT(device.validationMessages(), testing::IsEmpty());
+    runOnce(device, "filling twice without a barrier", [&](const vk::raii::CommandBuffer& commands) {
+        commands.fillBuffer(buffer.handle(), 0, 256, 1);
+        commands.fillBuffer(buffer.handle(), 0, 256, 2);
+    });
+    EXPECT_THAT(device.validationMessages(), testing::Contains(testing::HasSubstr("WRITE_AFTER_WRITE")));
+}
+
+}  // namespace
+}  // namespace duolux::test
