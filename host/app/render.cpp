@@ -226,7 +226,7 @@ void runRender(const RenderOptions& options) {
     if (!options.report.empty()) {
         writeReport(options.report, renderReport(scene, device.info(), output.statistics, seconds));
     }
-    if (interrupted()) {
+    if (output.statistics.stopped && interrupted()) {
         throw Error(
             ExitStatus::kInterrupted,
             fmt::format("interrupted: wrote what there is, {} of {} samples", output.statistics.samples,

@@ -9,9 +9,12 @@
 
 namespace duolux {
 
-unsigned workerCount() { return std::max(1u, std::thread::hardware_concurrency()); }
+unsigned workerCount() {
+    return std::max(1u, std::thread::hardware_concurrency());
+}
 
-void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+void parallelFor(std::size_t count, std::size_t grain,
+                 const std::function<void(std::size_t, std::size_t)>& body) {
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
     const std::size_t chunks = (count + grain - 1) / grain;
@@ -34,10 +37,11 @@ void parallelFor(std::size_t count, std::size_t grain, const std::function<void(
             next = chunks;
         }
     };
-    std::vector<std::thread> pool;
-    for (std::size_t i = 1; i < threads; ++i) pool.emplace_back(work);
+    std::vector<std::jthread> pool;
+    for (std::size_t i = 1; i < threads; ++i)
+        pool.emplace_back(work);
     work();
-    for (std::thread& thread : pool) thread.join();
+    pool.clear();  // joins
     if (failure) std::rethrow_exception(failure);
 }
 

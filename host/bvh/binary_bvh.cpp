@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cassert>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -124,13 +125,13 @@ class Builder {
 
     BinaryBvh build() {
         tasks_.push_back({0, 0, static_cast<std::uint32_t>(refs_.size())});
-        std::vector<std::thread> pool;
+        std::vector<std::jthread> pool;
         const bool parallel = refs_.size() > kParallelThreshold;
         for (unsigned i = 1; parallel && i < workerCount(); ++i)
             pool.emplace_back([this] { work(); });
         work();
-        for (std::thread& thread : pool)
-            thread.join();
+        pool.clear();  // joins
+        if (failure_) std::rethrow_exception(failure_);
         return std::move(bvh_);
     }
 
@@ -145,8 +146,17 @@ class Builder {
             tasks_.pop_back();
             ++busy_;
             lock.unlock();
-            subtree(task);
+            std::exception_ptr failure;
+            try {
+                subtree(task);
+            } catch (...) {
+                failure = std::current_exception();
+            }
             lock.lock();
+            if (failure) {
+                failure_ = failure;
+                tasks_.clear();
+            }
             --busy_;
             if (busy_ == 0 && tasks_.empty()) wake_.notify_all();
         }
@@ -192,6 +202,7 @@ class Builder {
     std::condition_variable wake_;
     std::vector<Task> tasks_;
     int busy_ = 0;
+    std::exception_ptr failure_;
 };
 
 }  // namespace

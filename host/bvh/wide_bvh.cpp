@@ -1,5 +1,7 @@
 #include "host/bvh/wide_bvh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -7,6 +9,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/bvh/binary_bvh.h"
 #include "host/bvh/collapse.h"
@@ -197,7 +200,10 @@ WideBvh buildWideBvh(const Geometry& geometry, std::span<const std::uint32_t> tr
     // Only contrived input makes the SAH build a chain this long; a balanced tree is then the better one,
     // too.
     if (wide.depth > shared::kMaxTreeDepth) wide = build(geometry, triangles, SplitMethod::kMedian);
-    assert(wide.depth <= shared::kMaxTreeDepth);
+    if (wide.depth > shared::kMaxTreeDepth) {
+        throw MachineError(fmt::format("{} triangles make a tree of more than {} levels", triangles.size(),
+                                       shared::kMaxTreeDepth));
+    }
     return wide;
 }
 

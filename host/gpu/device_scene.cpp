@@ -129,7 +129,9 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
     for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
         if (scene.materials[geometry.materials[i]].emission.any()) emitters.push_back(i);
     }
-    const Trees trees = buildTrees(geometry, emitters);
+    // Only rays that nothing stops look for emitters in a tree of their own.
+    const bool ownTree = traits.transmittance == shared::kTransmittanceIdentity;
+    const Trees trees = buildTrees(geometry, ownTree ? emitters : std::vector<std::uint32_t>{});
     const double buildSeconds = secondsSince(start);
 
     start = std::chrono::steady_clock::now();

@@ -50,7 +50,6 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
     params.inverseQuantum = 1.0f / deviceScene.quantum;
     params.lightCount = deviceScene.lightCount;
     params.emitterRoot = deviceScene.emitterRoot;
-    params.countedBounces = scene.render.bounces;
     return params;
 }
 
@@ -77,7 +76,8 @@ std::vector<Specialization> specialize(const Device& device, const DeviceScene& 
             {shared::kSpecVisibleCrosses, traits.visibleCrosses},
             {shared::kSpecOneReflectance, traits.oneReflectance},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
-            {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? 1u : 0u},
+            {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent
+                                                                                 : shared::kSamplerSobol},
             {shared::kSpecHasLights, deviceScene.lightCount > 0},
             {shared::kSpecEmitterTree, deviceScene.hasEmitters}};
 }
@@ -94,7 +94,7 @@ PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, con
     : workgroupSize_(chooseWorkgroupSize(device)),
       maxSlots_(maxSlots),
       params_(uploadParams(device, deviceScene, scene)),
-      pixels_(Buffer::upload(device, BufferUse::kStorage, pixels, "pixel order")),
+      pixels_(Buffer::upload(device, BufferUse::kTexels, pixels, "pixel order")),
       results_(Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxSlots}, "results")),
       kernel_(device, "path", spirv::kPathKernel,
               std::array<Binding, 8>{{{shared::kBindingNodes, &deviceScene.nodes},
@@ -117,7 +117,7 @@ void PathKernel::submit(unsigned lane, const WorkRange& range) {
     ranges_[lane] = range;
     const shared::DispatchParams push{range.firstSlot, range.slots, range.firstSample, range.samples,
                                       lane * maxSlots_};
-    commands_[lane].submit([&](const vk::raii::CommandBuffer& commands) {
+    commands_[lane].submit("tracing paths", [&](const vk::raii::CommandBuffer& commands) {
         // The other lane's dispatch writes the same buffer, elsewhere.
         const vk::MemoryBarrier barrier(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eShaderWrite);
         commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader,

@@ -109,7 +109,7 @@ class Renderer {
         statistics_.lastBounceRadiance = lastBounce_ / samples;
         statistics_.previousBounceRadiance = previousBounce_ / samples;
         statistics_.meanRadiance = meanDisplayed();
-        statistics_.filmOverflowed = film_.overflowed();
+        statistics_.filmOverflowed = film_.overflowed() || clamped_;
         return {std::move(film_), statistics_};
     }
 
@@ -122,7 +122,7 @@ class Renderer {
             maxSamples = std::min(maxSamples, control_.maxSamplesPerDispatch);
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), scene_.render.spp, kernel.maxSlots(),
                           kernel.workgroupSize(), maxSamples);
-        start_ = Clock::now();
+        start_ = lastReceived_ = Clock::now();
         unsigned submitted = 0;
         unsigned received = 0;
         for (;;) {
@@ -138,21 +138,11 @@ class Renderer {
             const std::size_t cutBefore = cutShort_.size();
             receive(kernel, received++ % 2);
             if (cutShort_.size() > cutBefore) schedule.limitSamples(cutShort_.back().samples / 2);
-            statistics_.renderSeconds = secondsSince(start_);
-            if (control_.onProgress && !schedule.done() && !statistics_.stopped) {
-                const RenderProgress progress{statistics_.samples,
-                                              std::uint64_t{scene_.render.spp} * pixels_.size(),
-                                              statistics_.renderSeconds};
-                if (!control_.onProgress(progress)) statistics_.stopped = true;
-            }
+            if (!statistics_.stopped) reportProgress();
         }
         for (const WorkRange& range : std::exchange(cutShort_, {}))
             redo(kernel, range);
-        statistics_.renderSeconds = secondsSince(start_);
-        if (control_.onProgress) {
-            control_.onProgress({statistics_.samples, std::uint64_t{scene_.render.spp} * pixels_.size(),
-                                 statistics_.renderSeconds});
-        }
+        reportProgress();
     }
 
     bool outOfTime(const Schedule& schedule, double elapsed) const {
@@ -166,15 +156,24 @@ class Renderer {
         statistics_.longestDispatchSeconds =
             std::max(statistics_.longestDispatchSeconds, results.deviceSeconds);
         statistics_.deviceSeconds += results.deviceSeconds;
-        const double seconds = results.deviceSeconds / static_cast<double>(results.range.size());
-        if (results.deviceSeconds > 0.0) {
-            secondsPerSample_ = secondsPerSample_ > 0.0 ? 0.5 * (secondsPerSample_ + seconds) : seconds;
-        }
+        // Without timestamps the time since the last dispatch came back has to do.
+        const Clock::time_point now = Clock::now();
+        const double measured = results.deviceSeconds > 0.0
+                                    ? results.deviceSeconds
+                                    : std::chrono::duration<double>(now - lastReceived_).count();
+        lastReceived_ = now;
+        const double seconds = measured / static_cast<double>(results.range.size());
+        secondsPerSample_ = secondsPerSample_ > 0.0 ? 0.5 * (secondsPerSample_ + seconds) : seconds;
         const bool complete =
             std::all_of(results.slots.begin(), results.slots.end(),
                         [&](const shared::SlotResult& r) { return r.completed == results.range.samples; });
         if (complete) {
             add(results);
+        } else if (results.range.samples == 1) {
+            throw MachineError(
+                fmt::format("tracing paths failed on {} ({}): the driver cut a single path short; render "
+                            "with fewer bounces than {}",
+                            device_.info().name, device_.info().driver, scene_.render.bounces));
         } else {
             cutShort_.push_back(results.range);
             ++statistics_.dispatchesCutShort;
@@ -185,16 +184,12 @@ class Renderer {
     /// dispatch that this happened to is thrown away and traced again in parts with fewer samples per
     /// invocation.
     void redo(PathKernel& kernel, const WorkRange& range) {
-        if (range.samples == 1) {
-            throw MachineError(
-                fmt::format("tracing paths failed on {} ({}): the driver cut a single path short; render "
-                            "with fewer bounces than {}",
-                            device_.info().name, device_.info().driver, scene_.render.bounces));
-        }
         const std::uint32_t half = range.samples / 2;
         for (const WorkRange& part :
              {WorkRange{range.firstSlot, range.slots, range.firstSample, half},
               WorkRange{range.firstSlot, range.slots, range.firstSample + half, range.samples - half}}) {
+            reportProgress();
+            if (statistics_.stopped) return;
             kernel.submit(0, part);
             const std::size_t before = cutShort_.size();
             receive(kernel, 0);
@@ -203,6 +198,16 @@ class Renderer {
                 redo(kernel, part);
             }
         }
+    }
+
+    /// Tells the caller, who may stop the render.
+    void reportProgress() {
+        statistics_.renderSeconds = secondsSince(start_);
+        if (!control_.onProgress) return;
+        const RenderProgress progress{statistics_.samples, std::uint64_t{scene_.render.spp} * pixels_.size(),
+                                      statistics_.renderSeconds};
+        const bool finished = progress.samplesDone == progress.samplesTotal;
+        if (!control_.onProgress(progress) && !finished) statistics_.stopped = true;
     }
 
     void add(const PathKernel::Results& results) {
@@ -217,6 +222,7 @@ class Renderer {
                 sums_[i].visible[c] = number(r.visible[2 * c], r.visible[2 * c + 1]);
             }
             statistics_.nonFiniteSamples += r.nonFinite;
+            clamped_ = clamped_ || r.clamped > 0;
             statistics_.cameraRays += r.cameraRays;
             statistics_.bounceRays += r.bounceRays;
             statistics_.shadowRays += r.shadowRays;
@@ -245,8 +251,9 @@ class Renderer {
     DeviceScene deviceScene_;
     Film film_;
     RenderStatistics statistics_;
-    Clock::time_point start_;
+    Clock::time_point start_, lastReceived_;
     double secondsPerSample_ = 0.0;
+    bool clamped_ = false;
     double lastBounce_ = 0.0, previousBounce_ = 0.0;
     std::vector<Film::PixelSum> sums_;
     std::vector<WorkRange> cutShort_;

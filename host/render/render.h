@@ -31,20 +31,20 @@ struct RenderControl {
 };
 
 struct RenderStatistics {
-    double buildSeconds = 0.0;            ///< BVH
+    double buildSeconds = 0.0;  ///< BVH
     double uploadSeconds = 0.0;
-    double pipelineSeconds = 0.0;         ///< creating the pipeline (and compiling, on drivers that do it then)
-    double firstDispatchSeconds = 0.0;    ///< wall, of the first dispatch (some drivers compile in it)
-    double renderSeconds = 0.0;           ///< wall, first dispatch to last
-    double deviceSeconds = 0.0;           ///< by timestamps, summed over dispatches
+    double pipelineSeconds = 0.0;       ///< creating the pipeline (and compiling, on drivers that do it then)
+    double firstDispatchSeconds = 0.0;  ///< wall, of the first dispatch (some drivers compile in it)
+    double renderSeconds = 0.0;         ///< wall, first dispatch to last
+    double deviceSeconds = 0.0;         ///< by timestamps, summed over dispatches
     double longestDispatchSeconds = 0.0;  ///< by timestamps
     std::uint64_t dispatches = 0;
     std::uint64_t dispatchesCutShort = 0;  ///< thrown away and traced again in smaller parts
     std::uint64_t samples = 0;             ///< pixel samples taken
     std::uint64_t cameraRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
-    std::uint64_t nonFiniteSamples = 0;    ///< dropped; 0 unless something is wrong
-    bool filmOverflowed = false;           ///< some sum did not fit 64 bits and was clamped
-    std::uint64_t deviceBytes = 0;         ///< peak
+    std::uint64_t nonFiniteSamples = 0;  ///< dropped; 0 unless something is wrong
+    bool filmOverflowed = false;         ///< some sum did not fit 64 bits and was clamped
+    std::uint64_t deviceBytes = 0;       ///< peak
     /// Radiance (mean over pixels and channels, displayed) that the last allowed bounce added, and the one
     /// before it.
     double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0, meanRadiance = 0.0;

@@ -55,7 +55,7 @@ void checkLimits(const DeviceInfo& info, BufferUse use, std::uint64_t size, std:
 Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
                Memory memory, std::string_view name)
     : device_(&device.handle()), use_(use), size_(std::max<std::uint64_t>((size + 15) / 16 * 16, 16)) {
-    checkLimits(device.info(), use, size_, name);
+    if (memory != Memory::kStaging) checkLimits(device.info(), use, size_, name);  // a copy is never bound
     try {
         buffer_ = vk::raii::Buffer(*device_, vk::BufferCreateInfo({}, size_, usageOf(use) | extra));
         const vk::MemoryRequirements requirements = buffer_.getMemoryRequirements();

@@ -20,6 +20,11 @@ vk::raii::QueryPool makeTimestamps(const Device& device) {
     return {device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)};
 }
 
+MachineError failure(const Device& device, std::string_view stage, std::string_view why) {
+    return MachineError(
+        fmt::format("{} failed on {} ({}): {}", stage, device.info().name, device.info().driver, why));
+}
+
 }  // namespace
 
 CommandSlot::CommandSlot(const Device& device)
@@ -30,47 +35,63 @@ CommandSlot::CommandSlot(const Device& device)
       fence_(device.handle(), vk::FenceCreateInfo()),
       timestamps_(makeTimestamps(device)) {}
 
-void CommandSlot::submit(const std::function<void(const vk::raii::CommandBuffer&)>& record) {
-    commands_.reset();
-    commands_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-    const bool timed = device_->timestampPeriod() > 0.0;
-    if (timed) {
-        commands_.resetQueryPool(*timestamps_, 0, 2);
-        commands_.writeTimestamp(vk::PipelineStageFlagBits::eTopOfPipe, *timestamps_, 0);
+CommandSlot::~CommandSlot() {
+    if (!inFlight_) return;
+    try {
+        static_cast<void>(device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX));
+    } catch (const vk::SystemError&) {
+        // The device is lost: nothing is in flight any more.
     }
-    record(commands_);
-    if (timed) commands_.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
-    // What the device wrote becomes visible to the host.
-    const vk::MemoryBarrier toHost(vk::AccessFlagBits::eMemoryWrite, vk::AccessFlagBits::eHostRead);
-    commands_.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eHost, {},
-                              toHost, {}, {});
-    commands_.end();
-    device_->handle().resetFences(*fence_);
-    vk::SubmitInfo submit;
-    const vk::CommandBuffer handle = *commands_;
-    submit.setCommandBuffers(handle);
-    device_->queue().submit(submit, *fence_);
+}
+
+void CommandSlot::submit(std::string_view stage,
+                         const std::function<void(const vk::raii::CommandBuffer&)>& record) {
+    try {
+        commands_.reset();
+        commands_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+        const bool timed = device_->timestampPeriod() > 0.0;
+        if (timed) {
+            commands_.resetQueryPool(*timestamps_, 0, 2);
+            // Not before the dispatches submitted earlier are done.
+            commands_.writeTimestamp(vk::PipelineStageFlagBits::eComputeShader, *timestamps_, 0);
+        }
+        record(commands_);
+        if (timed) commands_.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
+        // What the device wrote becomes visible to the host.
+        const vk::MemoryBarrier toHost(vk::AccessFlagBits::eMemoryWrite, vk::AccessFlagBits::eHostRead);
+        commands_.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eHost,
+                                  {}, toHost, {}, {});
+        commands_.end();
+        device_->handle().resetFences(*fence_);
+        vk::SubmitInfo submit;
+        const vk::CommandBuffer handle = *commands_;
+        submit.setCommandBuffers(handle);
+        device_->queue().submit(submit, *fence_);
+        inFlight_ = true;
+    } catch (const vk::SystemError& e) {
+        throw failure(*device_, stage, e.what());
+    }
 }
 
 double CommandSlot::wait(std::string_view stage) {
     try {
         const vk::Result result = device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX);
-        if (result != vk::Result::eSuccess) throw MachineError(vk::to_string(result));
+        if (result != vk::Result::eSuccess) throw failure(*device_, stage, vk::to_string(result));
+        inFlight_ = false;
         if (device_->timestampPeriod() == 0.0) return 0.0;
         const auto [status, ticks] = timestamps_.getResults<std::uint64_t>(
             0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
         if (status != vk::Result::eSuccess) return 0.0;
         return static_cast<double>(ticks[1] - ticks[0]) * device_->timestampPeriod() * 1e-9;
-    } catch (const std::exception& e) {
-        throw MachineError(fmt::format("{} failed on {} ({}): {}", stage, device_->info().name,
-                                       device_->info().driver, e.what()));
+    } catch (const vk::SystemError& e) {
+        throw failure(*device_, stage, e.what());
     }
 }
 
 void runOnce(const Device& device, std::string_view stage,
              const std::function<void(const vk::raii::CommandBuffer&)>& record) {
     CommandSlot slot(device);
-    slot.submit(record);
+    slot.submit(stage, record);
     slot.wait(stage);
 }
 

@@ -53,6 +53,7 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, Validation val
         }
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
         create.setPNext(&features);
     }
     create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);

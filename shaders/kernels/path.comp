@@ -32,7 +32,7 @@ layout(binding = kBindingNormals) uniform usamplerBuffer normalTexels;
 layout(binding = kBindingMaterials) uniform usamplerBuffer materialTexels;
 layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
-layout(binding = kBindingPixels, scalar) readonly buffer PixelsBlock { uint pixels[]; };
+layout(binding = kBindingPixels) uniform usamplerBuffer pixelTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotResult results[]; };
 layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
 
@@ -126,8 +126,8 @@ void gather(inout Gathered g, Light light, uint scatterings) {
     g.light.visible += light.visible;
     vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
     float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
-    g.lastBounce += scatterings == params.countedBounces ? mean : 0.0;
-    g.previousBounce += scatterings + 1u == params.countedBounces ? mean : 0.0;
+    g.lastBounce += scatterings == params.bounces ? mean : 0.0;
+    g.previousBounce += scatterings + 1u == params.bounces ? mean : 0.0;
 }
 
 Path cameraPath(uint pixel, vec2 u) {
@@ -297,12 +297,13 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= dispatch.slotCount) return;
-    uint pixel = pixels[dispatch.firstSlot + slot];
+    uint imageSlot = dispatch.firstSlot + slot;
+    uint pixel = texelFetch(pixelTexels, int(imageSlot >> 2u))[imageSlot & 3u];
     const bool ordered = kTransmittance != kTransmittanceZero;
 
     FilmSum invisibleSum = filmZero();
     FilmSum visibleSum = filmZero();
-    uint nonFinite = 0u, cameraRays = 0u, bounceRays = 0u, shadowRays = 0u, emitterRays = 0u;
+    uint nonFinite = 0u, clamped = 0u, cameraRays = 0u, bounceRays = 0u, shadowRays = 0u, emitterRays = 0u;
     float lastBounce = 0.0, previousBounce = 0.0;
 
     uint sampleIndex = dispatch.firstSample;
@@ -358,6 +359,7 @@ void main() {
             } else {
                 nonFinite += 1u;
             }
+            clamped += (total.x + total.y + total.z) * params.inverseQuantum >= kFilmLargest ? 1u : 0u;
             gathered = Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0);
             sampleIndex += 1u;
             path = cameraPath(pixel, samplePair(kSampler, pixel, sampleIndex, kDimensionPixel, params.seed));
@@ -382,6 +384,7 @@ void main() {
         uint[6](visibleSum.r.x, visibleSum.r.y, visibleSum.g.x, visibleSum.g.y, visibleSum.b.x, visibleSum.b.y);
     result.completed = sampleIndex - dispatch.firstSample;
     result.nonFinite = nonFinite;
+    result.clamped = clamped;
     result.cameraRays = cameraRays;
     result.bounceRays = bounceRays;
     result.shadowRays = shadowRays;

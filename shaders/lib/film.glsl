@@ -2,9 +2,12 @@
 #ifndef DUOLUX_LIB_FILM_GLSL
 #define DUOLUX_LIB_FILM_GLSL
 
-// One radiance value >= 0 in quanta. Values of 2^56 quanta and more are clamped there.
+// One sample of one channel holds less than this many quanta: 2^56.
+const float kFilmLargest = 72057594037927936.0;
+
+// One radiance value >= 0 in quanta, clamped to the largest.
 uvec2 filmQuantise(float value, float inverseQuantum) {
-    float scaled = min(value * inverseQuantum, 72057594037927936.0);
+    float scaled = min(value * inverseQuantum, kFilmLargest);
     // Below 2^24 there is a fraction to round; above, the float is an integer already.
     scaled = scaled < 16777216.0 ? floor(scaled + 0.5) : scaled;
     float high = floor(scaled * (1.0 / 4294967296.0));

@@ -4,9 +4,7 @@
 
 #include "shaders/lib/rng.glsl"
 #include "shaders/lib/sobol.glsl"
-
-const uint kSamplerSobol = 0u;
-const uint kSamplerIndependent = 1u;
+#include "shaders/shared/path_layout.h"
 
 // What a pair of numbers is for; with the vertex it makes the dimension.
 const uint kDimensionPixel = 0u;

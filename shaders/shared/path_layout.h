@@ -13,7 +13,7 @@ DUOLUX_CONST uint kBindingNormals = 2u;     // texels: DeviceNormals
 DUOLUX_CONST uint kBindingMaterials = 3u;   // texels: DeviceMaterial
 DUOLUX_CONST uint kBindingLights = 4u;      // texels: DeviceLight
 DUOLUX_CONST uint kBindingParams = 5u;      // uniform: PathParams
-DUOLUX_CONST uint kBindingPixels = 6u;      // storage: uint, pixel index of each slot
+DUOLUX_CONST uint kBindingPixels = 6u;      // texels: the pixel indices of four slots each
 DUOLUX_CONST uint kBindingResults = 7u;     // storage: SlotResult
 
 // Specialisation constants.
@@ -28,9 +28,12 @@ DUOLUX_CONST uint kSpecInvisibleCrosses = 7u;   // some T has m00 or m01
 DUOLUX_CONST uint kSpecVisibleCrosses = 8u;     // some T has m10 or m11
 DUOLUX_CONST uint kSpecOneReflectance = 9u;     // all materials share PathParams.opaque and .transparent
 DUOLUX_CONST uint kSpecSmoothNormals = 10u;
-DUOLUX_CONST uint kSpecSampler = 11u;           // 0: Owen-scrambled Sobol, 1: independent
+DUOLUX_CONST uint kSpecSampler = 11u;           // one of the kSampler... below
 DUOLUX_CONST uint kSpecHasLights = 12u;         // there is an emitter that next-event estimation can sample
 DUOLUX_CONST uint kSpecEmitterTree = 13u;       // something emits: there is a tree of emitters
+
+DUOLUX_CONST uint kSamplerSobol = 0u;       // Owen-scrambled Sobol points
+DUOLUX_CONST uint kSamplerIndependent = 1u;
 
 // What a segment between two points does to light, scene-wide.
 DUOLUX_CONST uint kTransmittanceZero = 0u;      // every T is 0: any surface hides what is behind it
@@ -61,7 +64,6 @@ struct PathParams {
     float inverseQuantum;
     uint lightCount;
     uint emitterRoot;    // node index of the root of the tree over emitters
-    uint countedBounces; // the scene's bounce limit, whose last two terms are reported
 };
 
 struct DispatchParams {
@@ -78,11 +80,12 @@ struct SlotResult {
     uint visible[6];
     uint completed;       // samples; fewer than asked for if the driver cut the kernel's loops short
     uint nonFinite;       // samples dropped because they were not finite
+    uint clamped;         // samples brighter than the film can hold
     uint cameraRays;
     uint bounceRays;
     uint shadowRays;
     uint emitterRays;
-    float lastBounce;     // displayed radiance (mean of channels) with PathParams.countedBounces scattering events
+    float lastBounce;     // displayed radiance (mean of channels) with PathParams.bounces scattering events
     float previousBounce; // with one fewer
 };
 
@@ -96,9 +99,9 @@ DUOLUX_CONST uint kMaterialEmitsFront = 2u;
 DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 
 #ifdef __cplusplus
-static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
+static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 84);
 static_assert(offsetof(PathParams, opaque) == 64 && offsetof(PathParams, rowWeight) == 160);
-static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 192);
+static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 188);
 
 struct DeviceMaterial {
     vec3 diffuse;

@@ -10,7 +10,6 @@
 
 namespace duolux::shared {
 using uint = std::uint32_t;
-using glm::uvec2;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
