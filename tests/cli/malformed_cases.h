@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,14 @@ struct WrongUsage {
     std::vector<std::string> arguments;
     std::vector<std::string> words;
 };
+
+/// For messages of the test framework.
+inline void PrintTo(const MalformedScene& scene, std::ostream* out) {
+    *out << scene.name;
+}
+inline void PrintTo(const WrongUsage& usage, std::ostream* out) {
+    *out << usage.name;
+}
 
 std::vector<MalformedScene> malformedObjs();
 std::vector<MalformedScene> malformedMtls();
