@@ -36,7 +36,8 @@ class CollapsePlan {
     };
     static constexpr std::uint8_t kLeaf = 1, kInner = 0;
 
-    /// Of a node's box, in units of the root's: the probability that a random ray that meets the root meets the node.
+    /// Of a node's box, in units of the root's: the probability that a random ray that meets the root meets
+    /// the node.
     float relativeArea(const BinaryBvh::Node& node) const;
     float cost(std::uint32_t node, int trees) const;
     void compute(std::uint32_t node);
