@@ -91,6 +91,22 @@ void storeMatrix(const LightMatrix& m, glm::vec4 (&out)[4]) {
     out[3] = glm::vec4(m.m11, 0.0f);
 }
 
+Bounds widenedBounds(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
+    Bounds bounds{glm::vec3(0.0f), glm::vec3(0.0f)};
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 p = geometry.positions[geometry.triangles[triangles[i]][k]];
+            const bool first = i == 0 && k == 0;
+            bounds.lower = first ? p : glm::min(bounds.lower, p);
+            bounds.upper = first ? p : glm::max(bounds.upper, p);
+        }
+    }
+    constexpr float kMargin = 1e-3f;  // of the bounds' diagonal and of the coordinates
+    const glm::vec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
+    const glm::vec3 margin = kMargin * (glm::vec3(glm::length(bounds.upper - bounds.lower)) + largest);
+    return {bounds.lower - margin, bounds.upper + margin};
+}
+
 std::vector<shared::DeviceMaterial> deviceMaterials(const Scene& scene, const LightTable& table) {
     std::vector<shared::DeviceMaterial> out;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -151,6 +167,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
         .hasSmoothNormals = !normals.empty(),
         .lightCount = static_cast<std::uint32_t>(table.lights.size()),
         .emitterRoot = trees.emitterRoot,
+        .emitterBounds = widenedBounds(geometry, emitters),
         .quantum = filmQuantum(scene),
         .buildSeconds = buildSeconds,
         .nodes = Buffer::upload<shared::WideNode>(device, Use::kTexels, trees.nodes, "BVH nodes"),

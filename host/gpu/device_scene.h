@@ -16,7 +16,8 @@ struct DeviceScene {
     bool hasSmoothNormals = false;
     std::uint32_t lightCount = 0;  ///< triangles that next-event estimation samples
     std::uint32_t emitterRoot = 0;
-    float quantum = 0.0f;  ///< of the film
+    Bounds emitterBounds{};  ///< of what emits, widened by more than rounding can move a hit
+    float quantum = 0.0f;    ///< of the film
     double buildSeconds = 0.0, uploadSeconds = 0.0;
 
     Buffer nodes, triangles, normals, materials, lights;

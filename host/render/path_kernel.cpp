@@ -50,6 +50,8 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
     params.inverseQuantum = 1.0f / deviceScene.quantum;
     params.lightCount = deviceScene.lightCount;
     params.emitterRoot = deviceScene.emitterRoot;
+    params.emitterLower = deviceScene.emitterBounds.lower;
+    params.emitterUpper = deviceScene.emitterBounds.upper;
     return params;
 }
 

@@ -346,6 +346,14 @@ void main() {
         }
 
         bool emissionOnly = onlyEmissionLeft(path) && path.scatterings + path.crossings > 0u;
+        if (kTransmittance == kTransmittanceIdentity) {
+            // Most rays that only look for emitters, and that nothing stops, pass far from all of them.
+            while (emissionOnly && !path.ended &&
+                   !intersectBox(path.origin, path.direction, path.t, params.emitterLower, params.emitterUpper)) {
+                endSegment(path, vertex, pixel, sampleIndex);
+                emissionOnly = onlyEmissionLeft(path);
+            }
+        }
         if (emissionOnly && !kEmitterTree) path.ended = true;
         // Emitters along a ray that nothing else can stop are found in their own small tree.
         bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;

@@ -43,6 +43,19 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     return TriangleHit(inside && det != 0.0, t, vec2(v, w) * scale);
 }
 
+// The inverse of a direction component, large and finite where it is 0.
+float safeInverse(float d) { return 1.0 / (abs(d) > 1e-20 ? d : (d < 0.0 ? -1e-20 : 1e-20)); }
+
+// Whether a ray meets a box beyond tMin.
+bool intersectBox(vec3 origin, vec3 direction, float tMin, vec3 lower, vec3 upper) {
+    vec3 inverse = vec3(safeInverse(direction.x), safeInverse(direction.y), safeInverse(direction.z));
+    vec3 a = (lower - origin) * inverse;
+    vec3 b = (upper - origin) * inverse;
+    vec3 entry = min(a, b);
+    vec3 leave = max(a, b);
+    return max(max(entry.x, entry.y), max(entry.z, tMin)) <= min(leave.x, min(leave.y, leave.z));
+}
+
 vec3 pointOnTriangle(Triangle tri, vec2 barycentric) {
     return tri.v0 * (1.0 - barycentric.x - barycentric.y) + tri.v1 * barycentric.x + tri.v2 * barycentric.y;
 }

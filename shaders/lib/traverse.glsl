@@ -55,9 +55,6 @@ Triangle fetchTriangle(uint index) {
     return Triangle(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t0.w, t1.w);
 }
 
-// The inverse of a direction component, large and finite where it is 0.
-float safeInverse(float d) { return 1.0 / (abs(d) > 1e-20 ? d : (d < 0.0 ? -1e-20 : 1e-20)); }
-
 // Starts at the tree whose root is node `root`.
 Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterPrimitive, float tMax,
                          bool anyHit) {

@@ -64,6 +64,8 @@ struct PathParams {
     float inverseQuantum;
     uint lightCount;
     uint emitterRoot;    // node index of the root of the tree over emitters
+    vec3 emitterLower;   // their bounds, widened a little
+    vec3 emitterUpper;
 };
 
 struct DispatchParams {
@@ -101,7 +103,7 @@ DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 #ifdef __cplusplus
 static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 84);
 static_assert(offsetof(PathParams, opaque) == 64 && offsetof(PathParams, rowWeight) == 160);
-static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 188);
+static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 212);
 
 struct DeviceMaterial {
     vec3 diffuse;
