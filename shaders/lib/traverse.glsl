@@ -178,7 +178,10 @@ void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNo
             visitNode(r);
             if (subgroupBallotBitCount(subgroupBallot(r.triangleMask == 0u && r.nodesLeft)) < leaveNodes) break;
         }
-        while (r.triangleMask != 0u) testTriangle(r, ordered);
+        if (r.triangleMask != 0u) {
+            do testTriangle(r, ordered);
+            while (r.triangleMask != 0u);
+        }
         if (r.anyHit && r.triangle != kNoTriangle) {
             r.nodesLeft = false;
             r.triangleMask = 0u;
