@@ -23,9 +23,9 @@ struct WorkRange {
 /// The path-tracing kernel, specialised for a scene. Slots are pixels in the order of `pixels`.
 class PathKernel {
   public:
-    /// Largest number of samples of a slot in one dispatch: their sum fits the device's 64 bits (film.glsl
-    /// clamps a sample at 2^56 quanta).
-    static constexpr std::uint32_t kMaxSamples = 64;
+    /// Largest number of samples of a slot in one dispatch. Their sum fits the device's 64 bits by far
+    /// (film.glsl clamps a sample at 2^56 quanta).
+    static constexpr std::uint32_t kMaxSamples = 16;
 
     /// `maxSlots`: of one dispatch. `scene` and `deviceScene` must belong together; deviceScene must outlive
     /// this.
@@ -33,14 +33,19 @@ class PathKernel {
                std::span<const std::uint32_t> pixels, std::uint32_t maxSlots);
 
     std::uint32_t maxSlots() const { return maxSlots_; }
-    std::uint32_t workgroupSize() const { return workgroupSize_; }
     std::uint64_t deviceBytes() const;
+
+    /// Samples that a team of lanes takes in one dispatch, over all its slots (but at least one slot's).
+    std::uint32_t teamSamples() const { return teamSamples_; }
+    void limitTeamSamples(std::uint32_t samples) { teamSamples_ = samples; }
 
     /// Two dispatches may be in flight: `lane` 0 and 1.
     void submit(unsigned lane, const WorkRange& range);
 
     struct Results {
         WorkRange range;
+        std::uint32_t teamSamples;  ///< as it was at submit
+        bool complete;              ///< no team was cut short by the driver
         std::span<const shared::SlotResult> slots;
         double deviceSeconds;
     };
@@ -48,11 +53,16 @@ class PathKernel {
     Results wait(unsigned lane);
 
   private:
-    std::uint32_t workgroupSize_, maxSlots_;
-    Buffer params_, pixels_, results_;
+    struct Submitted {
+        WorkRange range;
+        std::uint32_t teamSamples = 0, teamSlots = 0;
+    };
+
+    std::uint32_t teamSize_, workgroupSize_, teamSamples_, maxSlots_;
+    Buffer params_, pixels_, results_, teams_;
     Kernel kernel_;
     std::array<CommandSlot, 2> commands_;
-    std::array<WorkRange, 2> ranges_{};
+    std::array<Submitted, 2> submitted_{};
 };
 
 }  // namespace duolux

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "host/base/error.h"
 #include "host/gpu/device_scene.h"
@@ -25,60 +25,44 @@ double secondsSince(Clock::time_point start) {
 // its cost.
 constexpr double kDispatchSeconds = 0.1;
 
-// Lanes that take many samples of their pixel in one dispatch stay busy longer: on two spheres of 500,000
-// triangles 48 are 1.1 to 1.15 times as fast as 16. But what is stopped early should have about as many
-// samples everywhere: a pass takes at most so many times the samples that came before it, and where a time
-// limit makes a stop likely, fewer.
-constexpr std::uint32_t kPassGrowth = 15;
-constexpr std::uint32_t kSamplesWithTimeLimit = 16;
-
 /// Cuts the work into dispatches: a first pass of one sample for every pixel, then passes of several, each
-/// pass in runs of pixels whose size follows the measured speed.
+/// pass in runs of pixels whose size follows the measured speed. What is stopped early has about as many
+/// samples everywhere.
 class Schedule {
   public:
-    Schedule(std::uint32_t slots, std::uint32_t spp, std::uint32_t maxSlots, std::uint32_t group,
-             std::uint32_t maxSamples)
-        : slots_(slots), spp_(spp), maxSlots_(maxSlots), group_(group), maxSamples_(maxSamples) {}
+    Schedule(std::uint32_t slots, std::uint32_t spp, std::uint32_t maxSlots, std::uint32_t maxSamples)
+        : slots_(slots), spp_(spp), maxSlots_(maxSlots), maxSamples_(maxSamples) {}
 
-    bool done() const { return passBegin_ >= spp_; }
-    bool inFirstPass() const { return passBegin_ == 0; }
+    bool done() const { return firstSample_ >= spp_; }
+    bool inFirstPass() const { return firstSample_ == 0; }
 
     /// The next range; secondsPerSample <= 0: not known yet.
     WorkRange next(double secondsPerSample) {
-        const std::uint32_t samples = std::min(maxSamples_, passEnd_ - nextSample_);
-        if (nextSample_ == passBegin_) runSlots_ = chooseSlots(secondsPerSample * samples);
-        const WorkRange range{firstSlot_, runSlots_, nextSample_, samples};
-        nextSample_ += samples;
-        if (nextSample_ == passEnd_) finishRun();
+        const WorkRange range{firstSlot_, chooseSlots(secondsPerSample * samples_), firstSample_, samples_};
+        firstSlot_ += range.slots;
+        if (firstSlot_ == slots_) {
+            firstSlot_ = 0;
+            firstSample_ += samples_;
+            samples_ = std::min(maxSamples_, spp_ - firstSample_);
+        }
         return range;
     }
 
-    /// Fewer samples of a pixel in one dispatch from now on; at least one.
-    void limitSamples(std::uint32_t samples) { maxSamples_ = std::max(1u, std::min(maxSamples_, samples)); }
+    /// Takes at most so many samples of a pixel in one dispatch, from the next pass on.
+    void limitSamples(std::uint32_t samples) { maxSamples_ = std::min(maxSamples_, samples); }
 
   private:
     std::uint32_t chooseSlots(double secondsPerSlot) const {
-        double slots = secondsPerSlot > 0.0 ? kDispatchSeconds / secondsPerSlot : 4.0 * group_;
-        slots = std::max(std::floor(slots / group_), 1.0) * group_;
+        constexpr double kUnit = 256.0;  // so that few teams of lanes have less than a full share
+        double slots = secondsPerSlot > 0.0 ? kDispatchSeconds / secondsPerSlot : 4.0 * kUnit;
+        slots = std::max(std::floor(slots / kUnit), 1.0) * kUnit;
         return static_cast<std::uint32_t>(
             std::min({slots, static_cast<double>(maxSlots_), static_cast<double>(slots_ - firstSlot_)}));
     }
 
-    /// All samples of the pass have been handed out for a run of slots.
-    void finishRun() {
-        firstSlot_ += runSlots_;
-        if (firstSlot_ == slots_) {
-            firstSlot_ = 0;
-            passBegin_ = passEnd_;
-            passEnd_ += std::min({maxSamples_, kPassGrowth * passBegin_, spp_ - passBegin_});
-        }
-        nextSample_ = passBegin_;
-    }
-
-    std::uint32_t slots_, spp_, maxSlots_, group_, maxSamples_;
-    std::uint32_t passBegin_ = 0, passEnd_ = 1;  // the samples of the pass under way
-    std::uint32_t firstSlot_ = 0, runSlots_ = 0;
-    std::uint32_t nextSample_ = 0;
+    std::uint32_t slots_, spp_, maxSlots_, maxSamples_;
+    std::uint32_t firstSample_ = 0, samples_ = 1;  // the pass under way
+    std::uint32_t firstSlot_ = 0;
 };
 
 class Renderer {
@@ -117,14 +101,16 @@ class Renderer {
     static constexpr std::uint32_t kMaxSlots = 1u << 18;
 
     void trace(PathKernel& kernel) {
-        std::uint32_t maxSamples = control_.timeLimit ? kSamplesWithTimeLimit : PathKernel::kMaxSamples;
-        if (control_.maxSamplesPerDispatch > 0)
-            maxSamples = std::min(maxSamples, control_.maxSamplesPerDispatch);
+        const std::uint32_t maxSamples =
+            control_.maxSamplesPerDispatch > 0
+                ? std::min(PathKernel::kMaxSamples, control_.maxSamplesPerDispatch)
+                : PathKernel::kMaxSamples;
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), scene_.render.spp, kernel.maxSlots(),
-                          kernel.workgroupSize(), maxSamples);
+                          maxSamples);
         start_ = lastReceived_ = Clock::now();
         unsigned submitted = 0;
         unsigned received = 0;
+        std::vector<WorkRange> cutShort;
         for (;;) {
             // Keep two dispatches in flight, so that the device works while the host adds up.
             while (submitted - received < 2 && !schedule.done() && !statistics_.stopped) {
@@ -135,12 +121,13 @@ class Renderer {
                 kernel.submit(submitted++ % 2, schedule.next(secondsPerSample_));
             }
             if (submitted == received) break;
-            const std::size_t cutBefore = cutShort_.size();
-            receive(kernel, received++ % 2);
-            if (cutShort_.size() > cutBefore) schedule.limitSamples(cutShort_.back().samples / 2);
+            if (const std::optional<WorkRange> cut = receive(kernel, received++ % 2)) {
+                cutShort.push_back(*cut);
+                schedule.limitSamples(kernel.teamSamples());
+            }
             if (!statistics_.stopped) reportProgress();
         }
-        for (const WorkRange& range : std::exchange(cutShort_, {}))
+        for (const WorkRange& range : cutShort)
             redo(kernel, range);
         reportProgress();
     }
@@ -150,7 +137,9 @@ class Renderer {
                elapsed + kDispatchSeconds > *control_.timeLimit;
     }
 
-    void receive(PathKernel& kernel, unsigned lane) {
+    /// Waits for a dispatch and adds up what it has traced; or returns what the driver has cut short, to be
+    /// traced again with a smaller share for each team.
+    std::optional<WorkRange> receive(PathKernel& kernel, unsigned lane) {
         const PathKernel::Results results = kernel.wait(lane);
         if (statistics_.dispatches++ == 0) statistics_.firstDispatchSeconds = secondsSince(start_);
         statistics_.longestDispatchSeconds =
@@ -164,39 +153,33 @@ class Renderer {
         lastReceived_ = now;
         const double seconds = measured / static_cast<double>(results.range.size());
         secondsPerSample_ = secondsPerSample_ > 0.0 ? 0.5 * (secondsPerSample_ + seconds) : seconds;
-        const bool complete =
-            std::all_of(results.slots.begin(), results.slots.end(),
-                        [&](const shared::SlotResult& r) { return r.completed == results.range.samples; });
-        if (complete) {
+        if (results.complete) {
             add(results);
-        } else if (results.range.samples == 1) {
+            return std::nullopt;
+        }
+        if (results.teamSamples == 1) {
             throw MachineError(
                 fmt::format("tracing paths failed on {} ({}): the driver cut a single path short; render "
                             "with fewer bounces than {}",
                             device_.info().name, device_.info().driver, scene_.render.bounces));
-        } else {
-            cutShort_.push_back(results.range);
-            ++statistics_.dispatchesCutShort;
         }
+        kernel.limitTeamSamples(std::min(kernel.teamSamples(), results.teamSamples / 2));
+        ++statistics_.dispatchesCutShort;
+        return results.range;
     }
 
     /// Some drivers end all loops of an invocation after a fixed number of iterations, without a word. A
-    /// dispatch that this happened to is thrown away and traced again in parts with fewer samples per
-    /// invocation.
-    void redo(PathKernel& kernel, const WorkRange& range) {
-        const std::uint32_t half = range.samples / 2;
-        for (const WorkRange& part :
-             {WorkRange{range.firstSlot, range.slots, range.firstSample, half},
-              WorkRange{range.firstSlot, range.slots, range.firstSample + half, range.samples - half}}) {
+    /// dispatch that this happened to is thrown away and traced again.
+    void redo(PathKernel& kernel, WorkRange range) {
+        while (range.samples > 0) {
             reportProgress();
             if (statistics_.stopped) return;
+            WorkRange part = range;
+            part.samples = std::min(range.samples, kernel.teamSamples());
             kernel.submit(0, part);
-            const std::size_t before = cutShort_.size();
-            receive(kernel, 0);
-            if (cutShort_.size() > before) {
-                cutShort_.pop_back();
-                redo(kernel, part);
-            }
+            if (receive(kernel, 0)) continue;
+            range.firstSample += part.samples;
+            range.samples -= part.samples;
         }
     }
 
@@ -256,7 +239,6 @@ class Renderer {
     bool clamped_ = false;
     double lastBounce_ = 0.0, previousBounce_ = 0.0;
     std::vector<Film::PixelSum> sums_;
-    std::vector<WorkRange> cutShort_;
 };
 
 }  // namespace

@@ -116,8 +116,9 @@ Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::
     return buffer;
 }
 
-Buffer Buffer::readback(const Device& device, std::uint64_t size, std::string_view name) {
-    return Buffer(device, BufferUse::kStorage, size, {}, Memory::kReadback, name);
+Buffer Buffer::readback(const Device& device, std::uint64_t size, std::string_view name,
+                        vk::BufferUsageFlags extra) {
+    return Buffer(device, BufferUse::kStorage, size, extra, Memory::kReadback, name);
 }
 
 void Buffer::invalidate() const {

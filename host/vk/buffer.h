@@ -28,8 +28,9 @@ class Buffer {
         return upload(device, use, std::as_bytes(items), name);
     }
 
-    /// Written by the device, read by the host through mapped().
-    static Buffer readback(const Device& device, std::uint64_t size, std::string_view name);
+    /// Written by the device, read by the host through mapped(); `extra`: uses beyond that in kernels.
+    static Buffer readback(const Device& device, std::uint64_t size, std::string_view name,
+                           vk::BufferUsageFlags extra = {});
 
     vk::Buffer handle() const { return *buffer_; }
     vk::BufferView view() const { return *view_; }  ///< kTexels only: R32G32B32A32 uint

@@ -1,8 +1,9 @@
 // Gathering: paths from the camera carry a matrix of importance W per colour channel, whose rows are the two components
 // of the pixel. At a surface W E is collected; W O f_opaque goes on in a new direction, W T straight on.
 //
-// One invocation takes some samples of one pixel. Path rays and shadow rays share one traversal, which lanes leave and
-// enter as they finish and begin rays. All crossings along a ray are met in order: at each, emission and next-event
+// A team of lanes takes some samples of each of a range of pixels: a lane that has finished a pixel takes the team's next,
+// so that all stay busy. Path rays and shadow rays share one traversal, which lanes leave and enter as they finish and
+// begin rays. All crossings along a ray are met in order: at each, emission and next-event
 // estimation are gathered, and one of them is chosen, in proportion to the importance it would carry, to scatter on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,17 +15,11 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kLeaveTraversal = 6u;
 layout(constant_id = 2) const uint kLeaveNodes = 4u;
-layout(constant_id = 3) const uint kTransmittance = 2u;
-layout(constant_id = 4) const bool kSecondColumn = true;
-layout(constant_id = 5) const bool kInvisibleScatters = true;
-layout(constant_id = 6) const bool kVisibleScatters = true;
-layout(constant_id = 7) const bool kInvisibleCrosses = true;
-layout(constant_id = 8) const bool kVisibleCrosses = true;
-layout(constant_id = 9) const bool kOneReflectance = false;
 layout(constant_id = 10) const bool kSmoothNormals = true;
 layout(constant_id = 11) const uint kSampler = 0u;
 layout(constant_id = 12) const bool kHasLights = true;
 layout(constant_id = 13) const bool kEmitterTree = true;
+layout(constant_id = 14) const uint kTeamSize = 8u;
 
 layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
 layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
@@ -34,14 +29,15 @@ layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
 layout(binding = kBindingPixels) uniform usamplerBuffer pixelTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotResult results[]; };
+layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
 
 #include "shaders/lib/camera.glsl"
-#include "shaders/lib/film.glsl"
 #include "shaders/lib/lights.glsl"
-#include "shaders/lib/material.glsl"
 #include "shaders/lib/normals.glsl"
 #include "shaders/lib/sampler.glsl"
+#include "shaders/lib/slot_sums.glsl"
+#include "shaders/lib/transport.glsl"
 #include "shaders/lib/traverse.glsl"
 
 uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
@@ -50,32 +46,11 @@ uvec4 fetchMaterialTexel(uint index) { return texelFetch(materialTexels, int(ind
 uvec4 fetchLightTexel(uint index) { return texelFetch(lightTexels, int(index)); }
 uvec4 fetchNormalTexel(uint index) { return texelFetch(normalTexels, int(index)); }
 
+LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
+LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
+LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
+
 const float kInfinity = 1e30;
-
-LightMatrix opaqueOf(uint material) {
-    DeviceLightMatrix m = params.opaque;
-    return kOneReflectance ? LightMatrix(m.m00, m.m01, m.m10, m.m11) : fetchOpaque(material);
-}
-
-LightMatrix transparentOf(uint material) {
-    DeviceLightMatrix m = params.transparent;
-    return kOneReflectance ? LightMatrix(m.m00, m.m01, m.m10, m.m11) : fetchTransparent(material);
-}
-
-LightMatrix multiply(LightMatrix a, LightMatrix b) {
-    return kSecondColumn ? lightMultiply(a, b) : lightMultiplyFirstColumn(a, b);
-}
-
-// Importance that no surface can pass on by scattering or straight through is known without a look at the surface.
-bool canScatter(LightMatrix w) {
-    return (kInvisibleScatters && maxComponent(w.m00 + w.m10) > 0.0) ||
-           (kVisibleScatters && maxComponent(w.m01 + w.m11) > 0.0);
-}
-
-bool canCross(LightMatrix w) {
-    return (kInvisibleCrosses && maxComponent(w.m00 + w.m10) > 0.0) ||
-           (kVisibleCrosses && maxComponent(w.m01 + w.m11) > 0.0);
-}
 
 // A path under way: the segment it is on.
 struct Path {
@@ -114,20 +89,8 @@ struct Shadow {
     uint scatterings;        // events on the whole path, for the statistics
 };
 
-// What one sample has gathered.
-struct Gathered {
-    Light light;
-    float lastBounce;
-    float previousBounce;
-};
-
-void gather(inout Gathered g, Light light, uint scatterings) {
-    g.light.invisible += light.invisible;
-    g.light.visible += light.visible;
-    vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
-    float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
-    g.lastBounce += scatterings == params.bounces ? mean : 0.0;
-    g.previousBounce += scatterings + 1u == params.bounces ? mean : 0.0;
+void gather(inout Gathered gathered, Light light, uint scatterings) {
+    gather(gathered, light, scatterings, params.bounces, params.display);
 }
 
 Path cameraPath(uint pixel, vec2 u) {
@@ -233,6 +196,23 @@ LightMatrix importanceOf(Path path) {
     return LightMatrix(path.importance.m00, vec3(0.0), path.importance.m10, vec3(atCamera));
 }
 
+// The shadow ray has met a surface, or nothing more up to the emitter.
+void meetShadow(inout Shadow shadow, inout Gathered gathered, Traversal ray, bool found, uint material) {
+    if (kTransmittance == kTransmittanceGeneral && found) {
+        LightMatrix m = multiply(shadow.importance, transparentOf(material));
+        shadow.importance = m;
+        shadow.t = ray.t;
+        shadow.primitive = ray.primitive;
+        shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
+        return;
+    }
+    if (!found) {
+        bool general = kTransmittance == kTransmittanceGeneral;
+        gather(gathered, general ? lightApply(shadow.importance, shadow.emission) : shadow.emission, shadow.scatterings);
+    }
+    shadow.pending = false;
+}
+
 // The path has met a surface: emission, next-event estimation, a candidate for scattering, and the crossing.
 void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout Gathered gathered, Traversal ray,
                  Triangle tri, uint pixel, uint sampleIndex) {
@@ -294,110 +274,94 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     if (!passes) endSegment(path, vertex, pixel, sampleIndex);
 }
 
-void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= dispatch.slotCount) return;
+uint pixelOfSlot(uint slot) {
     uint imageSlot = dispatch.firstSlot + slot;
-    uint pixel = texelFetch(pixelTexels, int(imageSlot >> 2u))[imageSlot & 3u];
+    return texelFetch(pixelTexels, int(imageSlot >> 2u))[imageSlot & 3u];
+}
+
+vec2 filmSample(uint pixel, uint sampleIndex) {
+    return samplePair(kSampler, pixel, sampleIndex, kDimensionPixel, params.seed);
+}
+
+void main() {
+    uint team = gl_GlobalInvocationID.x / kTeamSize;
+    uint teamBegin = team * dispatch.teamSlots;
+    if (teamBegin >= dispatch.slotCount) return;
+    uint teamSlots = min(dispatch.teamSlots, dispatch.slotCount - teamBegin);
     const bool ordered = kTransmittance != kTransmittanceZero;
+    uint progress = dispatch.firstTeam + team;
 
-    FilmSum invisibleSum = filmZero();
-    FilmSum visibleSum = filmZero();
-    uint nonFinite = 0u, clamped = 0u, cameraRays = 0u, bounceRays = 0u, shadowRays = 0u, emitterRays = 0u;
-    float lastBounce = 0.0, previousBounce = 0.0;
-
+    uint taken = atomicAdd(teams[progress].taken, 1u);
+    uint pixel = pixelOfSlot(teamBegin + min(taken, teamSlots - 1u));
     uint sampleIndex = dispatch.firstSample;
     uint endSample = dispatch.firstSample + dispatch.sampleCount;
-    Gathered gathered = Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0);
+    SlotSums sums = emptySums();
+    Gathered gathered = nothingGathered();
     Vertex vertex;
     vertex.weightSum = 0.0;
     Shadow shadow;
     shadow.pending = false;
-    Path path = cameraPath(pixel, samplePair(kSampler, pixel, sampleIndex, kDimensionPixel, params.seed));
+    Path path = cameraPath(pixel, filmSample(pixel, sampleIndex));
     Traversal ray = traversalStart(0u, path.origin, path.direction, 0.0, kNoTriangle, kInfinity, false);
-    cameraRays += 1u;
 
-    while (sampleIndex < endSample) {
-        traverse(ray, ordered, kLeaveTraversal, kLeaveNodes);
-        if (traversalAlive(ray)) continue;
-
-        bool found = ray.triangle != kNoTriangle;
-        Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
-        if (shadow.pending) {
-            if (kTransmittance == kTransmittanceGeneral) {
-                if (found) {
-                    shadow.importance = multiply(shadow.importance, transparentOf(tri.materialFlags & kMaterialMask));
-                    shadow.t = ray.t;
-                    shadow.primitive = ray.primitive;
-                    LightMatrix m = shadow.importance;
-                    shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
+    while (taken < teamSlots) {
+        // Until some lane has all samples of its slot.
+        do {
+            traverse(ray, ordered, kLeaveTraversal, kLeaveNodes);
+            if (!traversalAlive(ray)) {
+                bool found = ray.triangle != kNoTriangle;
+                Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
+                if (shadow.pending) {
+                    meetShadow(shadow, gathered, ray, found, tri.materialFlags & kMaterialMask);
+                } else if (found) {
+                    meetSurface(path, vertex, shadow, gathered, ray, tri, pixel, sampleIndex);
                 } else {
-                    gather(gathered, lightApply(shadow.importance, shadow.emission), shadow.scatterings);
-                    shadow.pending = false;
+                    endSegment(path, vertex, pixel, sampleIndex);
                 }
-            } else {
-                if (!found) gather(gathered, shadow.emission, shadow.scatterings);
-                shadow.pending = false;
-            }
-        } else if (found) {
-            meetSurface(path, vertex, shadow, gathered, ray, tri, pixel, sampleIndex);
-        } else {
-            endSegment(path, vertex, pixel, sampleIndex);
-        }
 
-        bool emissionOnly = onlyEmissionLeft(path) && path.scatterings + path.crossings > 0u;
-        if (kTransmittance == kTransmittanceIdentity) {
-            // Most rays that only look for emitters, and that nothing stops, pass far from all of them.
-            while (emissionOnly && !path.ended &&
-                   !intersectBox(path.origin, path.direction, path.t, params.emitterLower, params.emitterUpper)) {
-                endSegment(path, vertex, pixel, sampleIndex);
-                emissionOnly = onlyEmissionLeft(path);
+                bool emissionOnly = onlyEmissionLeft(path) && path.scatterings + path.crossings > 0u;
+                if (kTransmittance == kTransmittanceIdentity) {
+                    // Most rays that only look for emitters, and that nothing stops, pass far from all of them.
+                    while (emissionOnly && !path.ended &&
+                           !intersectBox(path.origin, path.direction, path.t, params.emitterLower, params.emitterUpper)) {
+                        endSegment(path, vertex, pixel, sampleIndex);
+                        emissionOnly = onlyEmissionLeft(path);
+                    }
+                }
+                if (emissionOnly && !kEmitterTree) path.ended = true;
+                // Emitters along a ray that nothing else can stop are found in their own small tree.
+                bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
+                if (path.ended && !shadow.pending) {
+                    addSample(sums, gathered, params.inverseQuantum);
+                    gathered = nothingGathered();
+                    sampleIndex += 1u;
+                    path = cameraPath(pixel, filmSample(pixel, sampleIndex));
+                    inEmitterTree = false;
+                }
+                bool onPath = !shadow.pending;
+                bool fromCamera = path.scatterings + path.crossings == 0u;
+                sums.shadowRays += shadow.pending ? 1u : 0u;
+                sums.cameraRays += onPath && fromCamera ? 1u : 0u;
+                sums.bounceRays += onPath && !fromCamera && !inEmitterTree ? 1u : 0u;
+                sums.emitterRays += onPath && inEmitterTree ? 1u : 0u;
+                ray = traversalStart(inEmitterTree && onPath ? params.emitterRoot : 0u,
+                                     shadow.pending ? shadow.origin : path.origin,
+                                     shadow.pending ? shadow.direction : path.direction,
+                                     shadow.pending ? shadow.t : path.t,
+                                     shadow.pending ? shadow.primitive : path.primitive,
+                                     shadow.pending ? shadow.distance : kInfinity, shadow.pending && !ordered);
             }
+        } while (subgroupBallot(sampleIndex == endSample) == uvec4(0u));
+
+        if (sampleIndex == endSample) {
+            results[dispatch.firstResult + teamBegin + taken] = slotResult(sums);
+            atomicAdd(teams[progress].finished, 1u);
+            taken = atomicAdd(teams[progress].taken, 1u);
+            pixel = pixelOfSlot(teamBegin + min(taken, teamSlots - 1u));
+            sampleIndex = dispatch.firstSample;
+            sums = emptySums();
+            path = cameraPath(pixel, filmSample(pixel, sampleIndex));
+            ray = traversalStart(0u, path.origin, path.direction, 0.0, kNoTriangle, kInfinity, false);
         }
-        if (emissionOnly && !kEmitterTree) path.ended = true;
-        // Emitters along a ray that nothing else can stop are found in their own small tree.
-        bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
-        if (path.ended && !shadow.pending) {
-            vec3 total = gathered.light.invisible + gathered.light.visible;
-            if (total.x + total.y + total.z < kInfinity) {
-                invisibleSum = filmAccumulate(invisibleSum, gathered.light.invisible, params.inverseQuantum);
-                visibleSum = filmAccumulate(visibleSum, gathered.light.visible, params.inverseQuantum);
-                lastBounce += gathered.lastBounce;
-                previousBounce += gathered.previousBounce;
-            } else {
-                nonFinite += 1u;
-            }
-            clamped += (total.x + total.y + total.z) * params.inverseQuantum >= kFilmLargest ? 1u : 0u;
-            gathered = Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0);
-            sampleIndex += 1u;
-            path = cameraPath(pixel, samplePair(kSampler, pixel, sampleIndex, kDimensionPixel, params.seed));
-            inEmitterTree = false;
-            cameraRays += sampleIndex < endSample ? 1u : 0u;
-        } else {
-            shadowRays += shadow.pending ? 1u : 0u;
-            bounceRays += !shadow.pending && !inEmitterTree ? 1u : 0u;
-            emitterRays += !shadow.pending && inEmitterTree ? 1u : 0u;
-        }
-        ray = traversalStart(inEmitterTree && !shadow.pending ? params.emitterRoot : 0u,
-                             shadow.pending ? shadow.origin : path.origin,
-                             shadow.pending ? shadow.direction : path.direction, shadow.pending ? shadow.t : path.t,
-                             shadow.pending ? shadow.primitive : path.primitive,
-                             shadow.pending ? shadow.distance : kInfinity, shadow.pending && !ordered);
     }
-
-    SlotResult result;
-    result.invisible =
-        uint[6](invisibleSum.r.x, invisibleSum.r.y, invisibleSum.g.x, invisibleSum.g.y, invisibleSum.b.x, invisibleSum.b.y);
-    result.visible =
-        uint[6](visibleSum.r.x, visibleSum.r.y, visibleSum.g.x, visibleSum.g.y, visibleSum.b.x, visibleSum.b.y);
-    result.completed = sampleIndex - dispatch.firstSample;
-    result.nonFinite = nonFinite;
-    result.clamped = clamped;
-    result.cameraRays = cameraRays;
-    result.bounceRays = bounceRays;
-    result.shadowRays = shadowRays;
-    result.emitterRays = emitterRays;
-    result.lastBounce = lastBounce;
-    result.previousBounce = previousBounce;
-    results[dispatch.firstResult + slot] = result;
 }

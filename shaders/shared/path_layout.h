@@ -15,6 +15,7 @@ DUOLUX_CONST uint kBindingLights = 4u;      // texels: DeviceLight
 DUOLUX_CONST uint kBindingParams = 5u;      // uniform: PathParams
 DUOLUX_CONST uint kBindingPixels = 6u;      // texels: the pixel indices of four slots each
 DUOLUX_CONST uint kBindingResults = 7u;     // storage: SlotResult
+DUOLUX_CONST uint kBindingTeams = 8u;       // storage: TeamProgress, all zero before a dispatch
 
 // Specialisation constants.
 DUOLUX_CONST uint kSpecWorkgroupSize = 0u;
@@ -31,6 +32,7 @@ DUOLUX_CONST uint kSpecSmoothNormals = 10u;
 DUOLUX_CONST uint kSpecSampler = 11u;           // one of the kSampler... below
 DUOLUX_CONST uint kSpecHasLights = 12u;         // there is an emitter that next-event estimation can sample
 DUOLUX_CONST uint kSpecEmitterTree = 13u;       // something emits: there is a tree of emitters
+DUOLUX_CONST uint kSpecTeamSize = 14u;          // lanes that share a range of slots; divides the workgroup's size
 
 DUOLUX_CONST uint kSamplerSobol = 0u;       // Owen-scrambled Sobol points
 DUOLUX_CONST uint kSamplerIndependent = 1u;
@@ -73,14 +75,22 @@ struct DispatchParams {
     uint slotCount;
     uint firstSample;
     uint sampleCount;
+    uint teamSlots;      // slots that each team of lanes takes, one after the other
     uint firstResult;    // where in the results the first slot's goes
+    uint firstTeam;      // where the progress of the first team is kept
+};
+
+// Slots that the lanes of a team have begun and finished. Finished are fewer than asked for if the driver cut the
+// kernel's loops short.
+struct TeamProgress {
+    uint taken;
+    uint finished;
 };
 
 // Sums over the samples of one slot (pixel) in one dispatch. 64-bit two's complement numbers as (low, high).
 struct SlotResult {
     uint invisible[6];
     uint visible[6];
-    uint completed;       // samples; fewer than asked for if the driver cut the kernel's loops short
     uint nonFinite;       // samples dropped because they were not finite
     uint clamped;         // samples brighter than the film can hold
     uint cameraRays;
@@ -101,7 +111,7 @@ DUOLUX_CONST uint kMaterialEmitsFront = 2u;
 DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 
 #ifdef __cplusplus
-static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 84);
+static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
 static_assert(offsetof(PathParams, opaque) == 64 && offsetof(PathParams, rowWeight) == 160);
 static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 212);
 

@@ -1,0 +1,79 @@
+// What a sample gathers, and the sums over the samples of a slot (a pixel).
+#ifndef DUOLUX_LIB_SLOT_SUMS_GLSL
+#define DUOLUX_LIB_SLOT_SUMS_GLSL
+
+#include "shaders/lib/film.glsl"
+#include "shaders/lib/light_matrix.glsl"
+#include "shaders/shared/path_layout.h"
+
+// What one sample has gathered.
+struct Gathered {
+    Light light;
+    float lastBounce;
+    float previousBounce;
+};
+
+// Adds light that came over a path with so many scattering events; the last two allowed are summed apart, as `display`
+// shows them.
+void gather(inout Gathered g, Light light, uint scatterings, uint bounces, vec2 display) {
+    g.light.invisible += light.invisible;
+    g.light.visible += light.visible;
+    vec3 displayed = display.x * light.invisible + display.y * light.visible;
+    float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
+    g.lastBounce += scatterings == bounces ? mean : 0.0;
+    g.previousBounce += scatterings + 1u == bounces ? mean : 0.0;
+}
+
+Gathered nothingGathered() { return Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0); }
+
+// What a lane adds up while it takes the samples of a slot.
+struct SlotSums {
+    FilmSum invisible;
+    FilmSum visible;
+    uint nonFinite;
+    uint clamped;
+    uint cameraRays;
+    uint bounceRays;
+    uint shadowRays;
+    uint emitterRays;
+    float lastBounce;
+    float previousBounce;
+};
+
+SlotSums emptySums() { return SlotSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
+
+// Radiance beyond this is an error, not light.
+const float kLargestRadiance = 1e30;
+
+void addSample(inout SlotSums sums, Gathered gathered, float inverseQuantum) {
+    vec3 total = gathered.light.invisible + gathered.light.visible;
+    float sum = total.x + total.y + total.z;
+    if (sum < kLargestRadiance) {
+        sums.invisible = filmAccumulate(sums.invisible, gathered.light.invisible, inverseQuantum);
+        sums.visible = filmAccumulate(sums.visible, gathered.light.visible, inverseQuantum);
+        sums.lastBounce += gathered.lastBounce;
+        sums.previousBounce += gathered.previousBounce;
+    } else {
+        sums.nonFinite += 1u;
+    }
+    sums.clamped += sum * inverseQuantum >= kFilmLargest ? 1u : 0u;
+}
+
+uint[6] words(FilmSum sum) { return uint[6](sum.r.x, sum.r.y, sum.g.x, sum.g.y, sum.b.x, sum.b.y); }
+
+SlotResult slotResult(SlotSums sums) {
+    SlotResult result;
+    result.invisible = words(sums.invisible);
+    result.visible = words(sums.visible);
+    result.nonFinite = sums.nonFinite;
+    result.clamped = sums.clamped;
+    result.cameraRays = sums.cameraRays;
+    result.bounceRays = sums.bounceRays;
+    result.shadowRays = sums.shadowRays;
+    result.emitterRays = sums.emitterRays;
+    result.lastBounce = sums.lastBounce;
+    result.previousBounce = sums.previousBounce;
+    return result;
+}
+
+#endif

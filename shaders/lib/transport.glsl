@@ -1,0 +1,44 @@
+// The 2x2 blocks of the surfaces, as the scene needs them: constants leave out what no block of it does.
+// The kernel that includes this defines sceneOpaque and sceneTransparent, the blocks that all materials share if
+// kOneReflectance.
+#ifndef DUOLUX_LIB_TRANSPORT_GLSL
+#define DUOLUX_LIB_TRANSPORT_GLSL
+
+#include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/material.glsl"
+
+layout(constant_id = 3) const uint kTransmittance = 2u;
+layout(constant_id = 4) const bool kSecondColumn = true;
+layout(constant_id = 5) const bool kInvisibleScatters = true;
+layout(constant_id = 6) const bool kVisibleScatters = true;
+layout(constant_id = 7) const bool kInvisibleCrosses = true;
+layout(constant_id = 8) const bool kVisibleCrosses = true;
+layout(constant_id = 9) const bool kOneReflectance = false;
+
+LightMatrix sceneOpaque();
+LightMatrix sceneTransparent();
+
+LightMatrix opaqueOf(uint material) {
+    return kOneReflectance ? sceneOpaque() : fetchOpaque(material);
+}
+
+LightMatrix transparentOf(uint material) {
+    return kOneReflectance ? sceneTransparent() : fetchTransparent(material);
+}
+
+LightMatrix multiply(LightMatrix a, LightMatrix b) {
+    return kSecondColumn ? lightMultiply(a, b) : lightMultiplyFirstColumn(a, b);
+}
+
+// Importance that no surface can pass on by scattering or straight through is known without a look at the surface.
+bool canScatter(LightMatrix w) {
+    return (kInvisibleScatters && maxComponent(w.m00 + w.m10) > 0.0) ||
+           (kVisibleScatters && maxComponent(w.m01 + w.m11) > 0.0);
+}
+
+bool canCross(LightMatrix w) {
+    return (kInvisibleCrosses && maxComponent(w.m00 + w.m10) > 0.0) ||
+           (kVisibleCrosses && maxComponent(w.m01 + w.m11) > 0.0);
+}
+
+#endif
