@@ -29,9 +29,7 @@ void checkCommand(const CLI::App& app, int argc, char** argv) {
         fmt::format("{}: unknown command; {}", argv[1], duolux::suggestName(argv[1], known)));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     CLI::App app{
         "Duolux renders vector-valued light (invisible, visible) through matrix-valued reflectance:\n"
         "local, global, shadowless and one-bounce illumination, and everything between, by one path tracer.",
@@ -53,6 +51,14 @@ int main(int argc, char** argv) {
         return static_cast<int>(duolux::ExitStatus::kDone);
     } catch (const CLI::Success& e) {
         return app.exit(e);  // --help, --version
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
     } catch (const CLI::ParseError& e) {
         return report(fmt::format("{} (see 'duolux --help')", e.what()).c_str(), duolux::ExitStatus::kUsage);
     } catch (const duolux::Error& e) {

@@ -109,7 +109,7 @@ Path cameraPath(uint pixel, vec2 u) {
 }
 
 // Next-event estimation at a vertex: sets up a shadow ray, or gathers at once where nothing can be in between.
-void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex, vec3 wo, vec2 u, uint scatterings) {
+void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex, vec3 wo, uvec2 u, uint scatterings) {
     LightSample light = sampleLight(params.lightCount, u);
     vec3 offset = light.position - vertex.position;
     float side = dot(light.normal, offset) < 0.0 ? 1.0 : -1.0;
@@ -246,8 +246,8 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
         here.weight = weight;
         here.weightSum = vertex.weightSum + weight;
         if (kHasLights) {
-            vec2 u = samplePair(kSampler, pixel, sampleIndex,
-                                sampleDimension(path.scatterings, path.crossings, kDimensionLight), params.seed);
+            uvec2 u = sampleWords(kSampler, pixel, sampleIndex,
+                                  sampleDimension(path.scatterings, path.crossings, kDimensionLight), params.seed);
             connectToLight(shadow, gathered, here, -path.direction, u, path.scatterings + 1u);
         }
         bool chosen = true;

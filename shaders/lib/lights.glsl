@@ -5,6 +5,7 @@
 #define DUOLUX_LIB_LIGHTS_GLSL
 
 #include "shaders/lib/intersect.glsl"
+#include "shaders/lib/rng.glsl"
 #include "shaders/lib/warp.glsl"
 #include "shaders/shared/path_layout.h"
 
@@ -18,17 +19,18 @@ struct LightSample {
 };
 
 // A point with density DeviceMaterial.lightPdfArea: an emitting triangle by the alias table, then uniform on it.
-LightSample sampleLight(uint lightCount, vec2 u) {
-    float scaled = u.x * float(int(lightCount));
-    uint index = min(uint(scaled), lightCount - 1u);
-    float rest = scaled - float(int(index));
+// `u`: uniform words; all 32 bits of the first serve to pick among many emitters.
+LightSample sampleLight(uint lightCount, uvec2 u) {
+    uint index, fraction;
+    umulExtended(u.x, lightCount, index, fraction);
+    float rest = uniformFloat(fraction);
     uvec4 entry = fetchLightTexel(index * kLightTexels + 3u);
     float threshold = uintBitsToFloat(entry.x);
     bool keep = rest < threshold;
     index = keep ? index : entry.y;
     // The rest of the random number is uniform again within its interval.
     float remapped = keep ? rest / threshold : (rest - threshold) / (1.0 - threshold);
-    vec2 b = uniformTriangle(vec2(min(remapped, 0.99999994), u.y));
+    vec2 b = uniformTriangle(vec2(min(remapped, 0.99999994), uniformFloat(u.y)));
 
     uvec4 t0 = fetchLightTexel(index * kLightTexels);
     uvec4 t1 = fetchLightTexel(index * kLightTexels + 1u);

@@ -17,13 +17,18 @@ uint sampleDimension(uint scattering, uint crossing, uint purpose) {
     return (scattering << 16u) + (crossing << 2u) + purpose;
 }
 
-// Two numbers in [0, 1).
-vec2 samplePair(uint kind, uint pixel, uint sampleIndex, uint dimension, uint seed) {
+// Two uniform words.
+uvec2 sampleWords(uint kind, uint pixel, uint sampleIndex, uint dimension, uint seed) {
     if (kind == kSamplerSobol) {
         uvec4 key = pcg4d(uvec4(pixel, 0xffffffffu, dimension, seed));
-        return uniformFloat2(sobolPair(sampleIndex, key));
+        return sobolPair(sampleIndex, key);
     }
-    return uniformFloat2(pcg4d(uvec4(pixel, sampleIndex, dimension, seed)).xy);
+    return pcg4d(uvec4(pixel, sampleIndex, dimension, seed)).xy;
+}
+
+// Two numbers in [0, 1).
+vec2 samplePair(uint kind, uint pixel, uint sampleIndex, uint dimension, uint seed) {
+    return uniformFloat2(sampleWords(kind, pixel, sampleIndex, dimension, seed));
 }
 
 // Two numbers in [0, 1) for choices that gain nothing from stratification.

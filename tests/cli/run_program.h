@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace duolux::test {
 
 struct ProgramResult {
@@ -21,19 +23,6 @@ struct ProgramSignal {
 /// Runs duolux with arguments in `folder`, and waits for it; sends it a signal on the way if asked to.
 ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
                         std::optional<ProgramSignal> signal = std::nullopt);
-
-/// A new empty folder that is removed with everything in it.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 std::string contentsOf(const std::filesystem::path& file);
 

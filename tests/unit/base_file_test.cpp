@@ -1,12 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <stdexcept>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace duolux {
 namespace {
@@ -15,13 +14,6 @@ namespace fs = std::filesystem;
 
 class FileTest : public testing::Test {
   protected:
-    FileTest() {
-        std::string name = (fs::temp_directory_path() / "duolux-test-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
-        folder_ = name;
-    }
-    ~FileTest() override { fs::remove_all(folder_); }
-
     static void write(const fs::path& path, std::string_view text) {
         std::ofstream(path, std::ios::binary) << text;
     }
@@ -30,7 +22,8 @@ class FileTest : public testing::Test {
             std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
     }
 
-    fs::path folder_;
+    test::TemporaryFolder temporary_;
+    fs::path folder_ = temporary_.path();
 };
 
 TEST_F(FileTest, ReadsAllBytes) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/film/image.h"
+#include "tests/support/temporary_folder.h"
 
 namespace duolux::test {
 
@@ -16,21 +17,6 @@ RadianceImage plainImage(std::uint32_t width, std::uint32_t height, glm::vec3 co
 
 /// True if both hold the same bits (so that NaN equals NaN, and 0 differs from -0).
 bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b);
-
-/// A folder of its own, removed with what is in it at the end of its scope.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 void writeText(const std::filesystem::path& path, std::string_view bytes);
 

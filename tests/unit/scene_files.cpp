@@ -1,9 +1,7 @@
 #include "tests/unit/scene_files.h"
 
-#include <cstdlib>
 #include <fstream>
 #include <ostream>
-#include <stdexcept>
 #include <string_view>
 
 #include "host/base/error.h"
@@ -21,16 +19,6 @@ namespace duolux::test {
 namespace fs = std::filesystem;
 
 const std::string_view kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
-SceneFiles::SceneFiles() {
-    std::string name = (fs::temp_directory_path() / "duolux-scene-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
-    folder_ = name;
-}
-
-SceneFiles::~SceneFiles() {
-    fs::remove_all(folder_);
-}
 
 fs::path SceneFiles::write(const std::string& name, std::string_view text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;

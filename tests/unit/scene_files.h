@@ -8,15 +8,13 @@
 #include <string_view>
 
 #include "host/scene/scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace duolux::test {
 
 /// Tests that write scene files to a folder of their own and load them.
 class SceneFiles : public testing::Test {
   protected:
-    SceneFiles();
-    ~SceneFiles() override;
-
     /// Returns the file's path.
     std::filesystem::path write(const std::string& name, std::string_view text) const;
 
@@ -29,7 +27,8 @@ class SceneFiles : public testing::Test {
     std::string errorOfObj(std::string_view text) const;
     std::string errorOfJson(std::string_view text) const;
 
-    std::filesystem::path folder_;
+    TemporaryFolder temporary_;
+    std::filesystem::path folder_ = temporary_.path();
 };
 
 /// One triangle with vertices 1, 2, 3 and a luminaire, so that nothing is added by default.
