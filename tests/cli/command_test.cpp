@@ -20,7 +20,7 @@ class Command : public testing::Test {
 TEST_F(Command, HelpNamesEveryCommand) {
     const ProgramResult result = run({"--help"});
     EXPECT_EQ(result.status, 0);
-    for (const char* command : {"render", "devices", "info", "make-scene", "sheet"}) {
+    for (const char* command : {"render", "compare", "devices", "info", "make-scene", "sheet"}) {
         EXPECT_THAT(result.out, HasSubstr(command));
         const ProgramResult help = run({command, "--help"});
         EXPECT_EQ(help.status, 0) << command;

@@ -1,0 +1,189 @@
+#include "host/compare/compare.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/app/commands.h"
+#include "host/base/error.h"
+#include "host/base/version.h"
+#include "host/compare/heat_map.h"
+#include "host/scene/nearest_name.h"
+
+namespace duolux {
+
+namespace {
+
+struct Arguments {
+    std::string image, reference, mask, heatMap, transfer = "srgb";
+    float exposure = 0.0f, heatMapRange = 0.05f;
+    std::vector<std::string> limits;
+    bool json = false;
+};
+
+struct Limit {
+    std::string metric;
+    double value;
+};
+
+Limit parseLimit(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const auto fail = [&](const std::string& problem) {
+        throw UsageError(fmt::format("--fail-above {}: {}", text, problem));
+    };
+    if (equals == std::string::npos) fail("expected METRIC=VALUE, such as eps_mean=0.004");
+    Limit limit{text.substr(0, equals), 0.0};
+    std::vector<std::string> known;
+    for (const auto& [name, value] : Comparison{}.metrics())
+        known.emplace_back(name);
+    if (std::find(known.begin(), known.end(), limit.metric) == known.end()) {
+        fail(fmt::format("unknown metric; {}", suggestName(limit.metric, known)));
+    }
+    if (limit.metric == "psnr") fail("a higher psnr is better; expected a metric that grows with the error");
+    if (!CLI::detail::lexical_cast(text.substr(equals + 1), limit.value) || !std::isfinite(limit.value)) {
+        fail("expected a number after the =");
+    }
+    return limit;
+}
+
+RadianceImage readSameSize(const std::string& path, const RadianceImage& first,
+                           const std::string& firstPath) {
+    RadianceImage image = readImage(path);
+    if (image.width != first.width || image.height != first.height) {
+        throw InputError(
+            path, "", fmt::format("is {} x {} pixels", image.width, image.height),
+            fmt::format("expected {} x {}, the size of {}", first.width, first.height, firstPath));
+    }
+    return image;
+}
+
+std::vector<bool> readMask(const Arguments& arguments, const RadianceImage& image) {
+    const RadianceImage mask = readSameSize(arguments.mask, image, arguments.image);
+    std::vector<bool> counts;
+    for (const glm::vec3& pixel : mask.visible)
+        counts.push_back(std::max({pixel.x, pixel.y, pixel.z}) >= 0.5f);
+    if (std::find(counts.begin(), counts.end(), true) == counts.end()) {
+        throw InputError(arguments.mask, "", "masks every pixel",
+                         "expected white where pixels are to be compared");
+    }
+    return counts;
+}
+
+void print(const Comparison& c) {
+    const auto percent = [](double x) { return 100.0 * x; };
+    fmt::print("pixels compared           {}\n", c.pixels);
+    fmt::print("eps, mean                 {:.4f} %   (the paper's, of displayed values)\n",
+               percent(c.epsMean));
+    fmt::print("eps, maximum              {:.4f} %\n", percent(c.epsMax));
+    fmt::print("pixels with eps > 1/255   {:.4f} %\n", percent(c.epsAboveOneCode));
+    fmt::print("average colours differ by {:.4f} %\n", percent(c.averageColour));
+    fmt::print("signed mean error         {:+.6g}   (of radiance, as the next two)\n", c.signedMean);
+    fmt::print("RMSE                      {:.6g}\n", c.rmse);
+    fmt::print("relative MSE              {:.6g}\n", c.relativeMse);
+    fmt::print("PSNR                      {:.2f} dB\n", c.psnr);
+    fmt::print("FLIP, mean                {:.5f}\n", c.flip);
+}
+
+void printJson(const Arguments& arguments, const Comparison& c) {
+    nlohmann::ordered_json json;
+    json["version"] = 1;
+    json["program"] = {{"version", versionString()}, {"commit", commitString()}};
+    json["image"] = arguments.image;
+    json["reference"] = arguments.reference;
+    json["pixels"] = c.pixels;
+    for (const auto& [name, value] : c.metrics()) {
+        // JSON has no infinity: equal images have no PSNR.
+        json[std::string(name)] =
+            std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+    }
+    fmt::print("{}\n", json.dump(2));
+}
+
+void checkLimits(const std::vector<Limit>& limits, const Arguments& arguments, const Comparison& c) {
+    std::string exceeded;
+    for (const Limit& limit : limits) {
+        for (const auto& [name, value] : c.metrics()) {
+            if (name != limit.metric || std::abs(value) <= limit.value) continue;
+            exceeded += fmt::format("{}{} is {:.6g}, above {:g}", exceeded.empty() ? "" : "; ", name, value,
+                                    limit.value);
+        }
+    }
+    if (!exceeded.empty()) throw MachineError(fmt::format("{}: {}", arguments.image, exceeded));
+}
+
+void run(const Arguments& arguments) {
+    std::vector<Limit> limits;
+    for (const std::string& text : arguments.limits)
+        limits.push_back(parseLimit(text));
+    if (!arguments.heatMap.empty() && !isImagePath(arguments.heatMap)) {
+        throw UsageError(fmt::format("--heatmap {}: unknown image format; expected .png, .exr or .pfm",
+                                     arguments.heatMap));
+    }
+    const RadianceImage image = readImage(arguments.image);
+    const RadianceImage reference = readSameSize(arguments.reference, image, arguments.image);
+    CompareOptions options;
+    options.exposure = arguments.exposure;
+    options.transfer = arguments.transfer == "linear" ? Transfer::kLinear : Transfer::kSrgb;
+    if (!arguments.mask.empty()) options.mask = readMask(arguments, image);
+    const Comparison comparison = compare(image, reference, options);
+    if (!arguments.heatMap.empty()) {
+        std::vector<float> eps = epsMap(image, reference, options);
+        for (std::size_t i = 0; i < eps.size(); ++i) {
+            if (!options.mask.empty() && !options.mask[i]) eps[i] = 0.0f;
+        }
+        writeImage(arguments.heatMap, heatMap(eps, image.width, image.height, arguments.heatMapRange), {});
+    }
+    if (arguments.json) {
+        printJson(arguments, comparison);
+    } else {
+        print(comparison);
+    }
+    checkLimits(limits, arguments, comparison);
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("compare", "Measure how far an image is from a reference");
+    command->add_option("IMAGE", arguments->image, "The image: .exr, .png or .pfm")->required();
+    command->add_option("REFERENCE", arguments->reference, "What it should be, of the same size")->required();
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->add_option("--mask", arguments->mask, "Compare only pixels that are white in this image")
+        ->type_name("FILE");
+    command->add_option("--heatmap", arguments->heatMap, "Write a picture of eps, from black (0) to white")
+        ->type_name("FILE");
+    command->add_option("--heatmap-range", arguments->heatMapRange, "The eps that is white in it")
+        ->check(CLI::Range(1e-6f, 1.0f))
+        ->capture_default_str()
+        ->type_name("EPS");
+    command
+        ->add_option("--fail-above", arguments->limits,
+                     "Exit with status 1 if a metric (its name in the JSON; its size if it has a sign) "
+                     "exceeds this; may be "
+                     "given several times")
+        ->allow_extra_args(false)
+        ->type_name("METRIC=VALUE");
+    command
+        ->add_option("--exposure", arguments->exposure,
+                     "Stops by which both images are brightened for display")
+        ->check(CLI::Range(-64.0f, 64.0f))
+        ->type_name("STOPS");
+    command
+        ->add_option("--transfer", arguments->transfer,
+                     "Displayed values: srgb-encoded as in PNG files, or linear as in the paper; eps and "
+                     "PSNR use them")
+        ->check(CLI::IsMember({"srgb", "linear"}))
+        ->capture_default_str()
+        ->type_name("NAME");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace duolux
