@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -146,12 +145,7 @@ void writeReport(const std::string& file, const std::string& text) {
         std::fputs(text.c_str(), stdout);
         return;
     }
-    writeFileAtomically(file, [&](const std::filesystem::path& temporary) {
-        std::ofstream out(temporary);
-        out << text;
-        out.close();
-        if (!out) throw MachineError(fmt::format("{}: cannot write", file));
-    });
+    writeTextFile(file, text);
 }
 
 ImageOptions imageOptions(const RenderOptions& options, const Scene& scene,

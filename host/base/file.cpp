@@ -55,4 +55,13 @@ void writeFileAtomically(const std::filesystem::path& path,
     }
 }
 
+void writeTextFile(const std::filesystem::path& path, std::string_view text) {
+    writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
+        std::ofstream out(temporary, std::ios::binary);
+        out << text;
+        out.close();
+        if (!out) throw MachineError(path.string() + ": cannot write");
+    });
+}
+
 }  // namespace duolux

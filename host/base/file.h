@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace duolux {
 
@@ -14,5 +15,8 @@ std::string readFile(const std::filesystem::path& path);
 /// Throws MachineError naming `path` if the folder cannot be written to.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// Writes a whole text file like that.
+void writeTextFile(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace duolux

@@ -1,0 +1,200 @@
+// duolux-gl: what OpenGL makes of a scene, as the reference for the `local` reflectance.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/base/version.h"
+#include "host/film/image.h"
+#include "host/gl/context.h"
+#include "host/gl/draw.h"
+#include "host/gl/opengl.h"
+#include "host/scene/load.h"
+
+namespace duolux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Arguments {
+    std::string scene, lights = "5", lighting = "fixed-function", report;
+    std::vector<std::string> outputs;
+    std::vector<std::uint32_t> size;
+    std::vector<float> window{0.0f, 0.0f, 1.0f, 1.0f};
+    std::uint32_t passes = 64;
+    float exposure = 0.0f;
+};
+
+Lighting lightingOf(const std::string& name) {
+    if (name == "per-fragment") return Lighting::kPerFragment;
+    return name == "wireframe" ? Lighting::kWireframe : Lighting::kFixedFunction;
+}
+
+void writeImages(const Arguments& arguments, const Scene& scene, std::vector<glm::vec3> pixels) {
+    RadianceImage image{scene.render.width, scene.render.height, {}, std::move(pixels)};
+    image.invisible.assign(image.visible.size(), glm::vec3(0.0f));
+    ImageOptions options;
+    options.exposure = arguments.exposure;
+    options.metadata = {{"Software", fmt::format("duolux-gl {}", versionString())},
+                        {"lights", arguments.lights},
+                        {"lighting", arguments.lighting},
+                        {"scene", scene.hash}};
+    for (const std::string& output : arguments.outputs)
+        writeImage(output, image, options);
+}
+
+void writeReport(const std::string& path, const nlohmann::ordered_json& report) {
+    const std::string text = report.dump(2) + "\n";
+    if (path == "-") {
+        fmt::print("{}", text);
+    } else {
+        writeTextFile(path, text);
+    }
+}
+
+void run(const Arguments& arguments) {
+    const Tiling tiling = Tiling::parse(arguments.lights);
+    for (const std::string& output : arguments.outputs) {
+        if (!isImagePath(output))
+            throw UsageError(fmt::format("-o {}: unknown image format; expected .exr, .png or .pfm", output));
+    }
+    const Clock::time_point start = Clock::now();
+    Scene scene = loadScene(arguments.scene);
+    for (const std::string& warning : scene.warnings)
+        fmt::print(stderr, "duolux-gl: warning: {}\n", warning);
+    if (!arguments.size.empty()) {
+        scene.render.width = arguments.size[0];
+        scene.render.height = arguments.size[1];
+    }
+    DrawOptions options;
+    options.lighting = lightingOf(arguments.lighting);
+    options.passes = arguments.passes;
+    std::copy(arguments.window.begin(), arguments.window.end(), options.window.begin());
+    std::vector<PointLight> lights;
+    if (options.lighting != Lighting::kWireframe) lights = pointLights(scene, tiling);
+    const double loadSeconds = secondsSince(start);
+
+    const Clock::time_point contextStart = Clock::now();
+    const GlContext context;
+    const double contextSeconds = secondsSince(contextStart);
+    const Clock::time_point uploadStart = Clock::now();
+    GlScene glScene(scene);
+    glFinish();
+    const double uploadSeconds = secondsSince(uploadStart);
+    const Clock::time_point drawStart = Clock::now();
+    std::vector<glm::vec3> pixels = glScene.draw(lights, options);
+    const double drawSeconds = secondsSince(drawStart);
+    writeImages(arguments, scene, std::move(pixels));
+
+    if (arguments.report.empty()) return;
+    nlohmann::ordered_json report;
+    report["version"] = 1;
+    report["program"] = {{"version", versionString()}, {"commit", commitString()}};
+    report["scene"] = {{"file", arguments.scene},
+                       {"hash", scene.hash},
+                       {"triangles", scene.geometry.triangles.size()},
+                       {"vertices", glScene.statistics().vertices}};
+    report["settings"] = {{"width", scene.render.width},
+                          {"height", scene.render.height},
+                          {"passes", arguments.passes},
+                          {"lights", lights.size()},
+                          {"lighting", arguments.lighting}};
+    report["opengl"] = {{"renderer", context.renderer()},
+                        {"version", context.version()},
+                        {"lights_at_once", glScene.statistics().lightsAtOnce},
+                        {"scene_drawings", glScene.statistics().sceneDrawings}};
+    report["seconds"] = {{"load", loadSeconds},
+                         {"context", contextSeconds},
+                         {"upload", uploadSeconds},
+                         {"draw", drawSeconds},
+                         {"total", secondsSince(start)}};
+    writeReport(arguments.report, report);
+}
+
+int fail(const std::string& line, ExitStatus status) {
+    fmt::print(stderr, "duolux-gl: {}\n", line);
+    return static_cast<int>(status);
+}
+
+int parseAndRun(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app{
+        "Draws a scene with OpenGL's own lighting, its luminaires replaced by point lights: the reference "
+        "for the\n"
+        "reflectance `local`.",
+        "duolux-gl"};
+    app.set_version_flag("--version", fmt::format("duolux-gl {} ({})", versionString(), commitString()));
+    app.get_formatter()->column_width(36);
+    app.add_option("SCENE", arguments.scene, "The scene: .obj (with its .mtl) or .json")->required();
+    app.add_option("-o,--output", arguments.outputs,
+                   "Image to write: .exr, .png or .pfm; may be given several times")
+        ->required()
+        ->allow_extra_args(false)
+        ->type_name("FILE");
+    app.add_option("--lights", arguments.lights,
+                   "Point lights of each luminaire: 5 (centre and corners of 3x3 tiles), or ROWSxCOLUMNS")
+        ->capture_default_str()
+        ->type_name("N");
+    app.add_option(
+           "--lighting", arguments.lighting,
+           "OpenGL's fixed function, at vertices; the same per fragment by a shader; or the mesh's edges")
+        ->check(CLI::IsMember({"fixed-function", "per-fragment", "wireframe"}))
+        ->capture_default_str()
+        ->type_name("NAME");
+    app.add_option("--passes", arguments.passes, "Jittered images to average: samples per pixel")
+        ->check(CLI::Range(1, 65536))
+        ->capture_default_str()
+        ->type_name("N");
+    app.add_option("--size", arguments.size, "Image size as WIDTHxHEIGHT (default: the scene's)")
+        ->delimiter('x')
+        ->expected(2)
+        ->check(CLI::Range(1, 16384))
+        ->type_name("WIDTHxHEIGHT");
+    app.add_option("--window", arguments.window,
+                   "Part of the image to draw, as fractions of it: LEFT,TOP,WIDTH,HEIGHT")
+        ->delimiter(',')
+        ->expected(4)
+        ->check(CLI::Range(0.0f, 1.0f))
+        ->type_name("L,T,W,H");
+    app.add_option("--exposure", arguments.exposure, "Stops by which a PNG is brightened")
+        ->check(CLI::Range(-64.0f, 64.0f))
+        ->type_name("STOPS");
+    app.add_option("--report", arguments.report, "Write statistics as JSON to this file (-: standard output)")
+        ->type_name("FILE");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return app.exit(e);
+    }
+    run(arguments);
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace duolux
+
+int main(int argc, char** argv) {
+    using duolux::ExitStatus;
+    try {
+        return duolux::parseAndRun(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return duolux::fail(fmt::format("{} (see 'duolux-gl --help')", e.what()), ExitStatus::kUsage);
+    } catch (const duolux::Error& e) {
+        return duolux::fail(e.what(), e.status());
+    } catch (const std::exception& e) {
+        return duolux::fail(e.what(), ExitStatus::kMachineFailed);
+    }
+}

@@ -1,0 +1,53 @@
+#include "host/gl/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+namespace duolux {
+
+glm::vec2 jitterOf(std::uint32_t index, std::uint32_t count) {
+    std::uint32_t reversed = 0;
+    for (int bit = 0; bit < 32; ++bit)
+        reversed |= (index >> bit & 1u) << (31 - bit);
+    const auto n = static_cast<float>(count);
+    return {(static_cast<float>(index) + 0.5f) / n,
+            std::min(static_cast<float>(reversed >> 8) * 0x1p-24f + 0.5f / n, 0.99999994f)};
+}
+
+glm::mat4 viewMatrix(const Camera& camera) {
+    return glm::lookAt(camera.position, camera.target, camera.up);
+}
+
+glm::mat4 projectionMatrix(const Scene& scene, glm::vec2 jitter, const std::array<float, 4>& window) {
+    const Camera& camera = scene.camera;
+    const Bounds bounds = boundsOf(scene.geometry);
+    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
+    float nearest = std::numeric_limits<float>::max();
+    float farthest = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p((corner & 1) != 0 ? bounds.upper.x : bounds.lower.x,
+                          (corner & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+                          (corner & 4) != 0 ? bounds.upper.z : bounds.lower.z);
+        const float depth = glm::dot(p - camera.position, forward);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    const float size = glm::length(bounds.upper - bounds.lower);
+    farthest = std::max(farthest, size * 1e-3f) * 1.001f;
+    nearest = std::max(nearest * 0.999f, farthest * 1e-4f);
+
+    const float aspect = static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height);
+    const float halfHeight = std::tan(glm::radians(camera.vfov) / 2.0f) * nearest;
+    const float halfWidth = halfHeight * aspect;
+    // A fragment is computed at the centre of its pixel: the image is moved by what the sample is off it.
+    const glm::vec2 moved = (jitter - 0.5f) / glm::vec2(scene.render.width, scene.render.height) *
+                            glm::vec2(window[2], window[3]);
+    const auto x = [&](float fraction) { return (2.0f * (fraction + moved.x) - 1.0f) * halfWidth; };
+    const auto y = [&](float fraction) { return (1.0f - 2.0f * (fraction + moved.y)) * halfHeight; };
+    return glm::frustum(x(window[0]), x(window[0] + window[2]), y(window[1] + window[3]), y(window[1]),
+                        nearest, farthest);
+}
+
+}  // namespace duolux
