@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/options.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/compare/heat_map.h"
@@ -122,9 +123,9 @@ void run(const Arguments& arguments) {
     std::vector<Limit> limits;
     for (const std::string& text : arguments.limits)
         limits.push_back(parseLimit(text));
-    if (!arguments.heatMap.empty() && !isImagePath(arguments.heatMap)) {
-        throw UsageError(fmt::format("--heatmap {}: unknown image format; expected .png, .exr or .pfm",
-                                     arguments.heatMap));
+    if (!arguments.heatMap.empty()) {
+        checkOutputs({{"--heatmap", arguments.heatMap}},
+                     {arguments.image, arguments.reference, arguments.mask});
     }
     const RadianceImage image = readImage(arguments.image);
     const RadianceImage reference = readSameSize(arguments.reference, image, arguments.image);
@@ -161,7 +162,7 @@ void addCompareCommand(CLI::App& app) {
     command->add_option("--heatmap", arguments->heatMap, "Write a picture of eps, from black (0) to white")
         ->type_name("FILE");
     command->add_option("--heatmap-range", arguments->heatMapRange, "The eps that is white in it")
-        ->check(CLI::Range(1e-6f, 1.0f))
+        ->check(between(1e-6, 1.0))
         ->capture_default_str()
         ->type_name("EPS");
     command
@@ -174,7 +175,7 @@ void addCompareCommand(CLI::App& app) {
     command
         ->add_option("--exposure", arguments->exposure,
                      "Stops by which both images are brightened for display")
-        ->check(CLI::Range(-64.0f, 64.0f))
+        ->check(between(-64.0, 64.0))
         ->type_name("STOPS");
     command
         ->add_option("--transfer", arguments->transfer,

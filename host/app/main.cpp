@@ -7,6 +7,7 @@
 #include <new>
 
 #include "host/app/commands.h"
+#include "host/app/options.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/scene/nearest_name.h"
@@ -20,10 +21,14 @@ int report(const char* line, duolux::ExitStatus status) {
 
 /// CLI11 does not tell an unknown command from a missing one.
 void checkCommand(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') return;
     std::vector<std::string> known;
     for (const CLI::App* command : app.get_subcommands({}))
         known.push_back(command->get_name());
+    if (argc < 2) {
+        throw duolux::UsageError(
+            fmt::format("expected a command: {} (see 'duolux --help')", fmt::join(known, ", ")));
+    }
+    if (argv[1][0] == '-') return;
     if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return;
     throw duolux::UsageError(
         fmt::format("{}: unknown command; {}", argv[1], duolux::suggestName(argv[1], known)));
@@ -52,6 +57,8 @@ int run(int argc, char** argv) {
         return static_cast<int>(duolux::ExitStatus::kDone);
     } catch (const CLI::Success& e) {
         return app.exit(e);  // --help, --version
+    } catch (const CLI::ParseError& e) {
+        return report(duolux::describeParseError(app, e).c_str(), duolux::ExitStatus::kUsage);
     }
 }
 
@@ -60,8 +67,6 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return report(fmt::format("{} (see 'duolux --help')", e.what()).c_str(), duolux::ExitStatus::kUsage);
     } catch (const duolux::Error& e) {
         return report(e.what(), e.status());
     } catch (const std::bad_alloc&) {

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <optional>
 
 #include "host/app/commands.h"
 #include "host/app/interrupt.h"
+#include "host/app/options.h"
 #include "host/app/report.h"
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -41,40 +42,14 @@ struct RenderOptions {
     bool quiet = false;
 };
 
-/// "A<separator>B" as two numbers.
-template <typename T>
-std::optional<std::pair<T, T>> parsePair(const std::string& text, char separator) {
-    const std::size_t at = text.find(separator);
-    if (at == std::string::npos) return std::nullopt;
-    std::pair<T, T> values{};
-    const char* middle = text.data() + at;
-    const char* end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), middle, values.first);
-    const auto second = std::from_chars(middle + 1, end, values.second);
-    if (first.ec != std::errc() || first.ptr != middle || second.ec != std::errc() || second.ptr != end) {
-        return std::nullopt;
-    }
-    return values;
-}
-
 Reflectance parseBlend(const std::string& text) {
-    const auto values = parsePair<float>(text, ',');
-    if (!values || !(values->first >= 0.0f) || !(values->second >= 0.0f) || !std::isfinite(values->first) ||
-        !std::isfinite(values->second)) {
+    const auto point = parsePoint(text);
+    const auto inside = [](float x) { return x >= 0.0f && x <= 1.0f; };
+    if (!point || !inside(point->x) || !inside(point->y)) {
         throw UsageError(
-            fmt::format("--blend {}: expected two numbers >= 0 as T,O, for example 0.5,1", text));
+            fmt::format("--blend {}: expected two numbers from 0 to 1 as T,O, for example 0.5,1", text));
     }
-    return blendReflectance(values->first, values->second);
-}
-
-glm::uvec2 parseSize(const std::string& text) {
-    const auto values = parsePair<std::uint32_t>(text, 'x');
-    if (!values || values->first < 1 || values->second < 1 || values->first > 16384 ||
-        values->second > 16384) {
-        throw UsageError(
-            fmt::format("--size {}: expected WIDTHxHEIGHT, each from 1 to 16384, for example 640x480", text));
-    }
-    return {values->first, values->second};
+    return blendReflectance(point->x, point->y);
 }
 
 /// What the command line changes of a scene.
@@ -110,44 +85,6 @@ Overrides parseOverrides(const RenderOptions& options) {
     return overrides;
 }
 
-void checkFolderOf(std::string_view option, const std::string& file) {
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-        throw UsageError(fmt::format("{} {}: there is no folder {}", option, file, folder.string()));
-    }
-}
-
-/// What is wrong with an output file is said before the rendering, not after.
-void checkOutputs(const std::vector<std::string>& outputs, const std::string& report) {
-    for (const std::string& output : outputs) {
-        if (!isImagePath(output)) {
-            throw UsageError(fmt::format("-o {}: unknown image format; expected .exr, .png or .pfm", output));
-        }
-        checkFolderOf("-o", output);
-    }
-    if (report != "-") checkFolderOf("--report", report);
-}
-
-/// A check that a number is in [lower, upper], which NaN is not.
-CLI::Validator between(double lower, double upper) {
-    const std::string range = fmt::format("from {:g} to {:g}", lower, upper);
-    return CLI::Validator(
-        [=](std::string& text) {
-            double value = 0.0;
-            const bool fine = CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper;
-            return fine ? std::string() : fmt::format("expected a number {}, not {}", range, text);
-        },
-        range);
-}
-
-void writeReport(const std::string& file, const std::string& text) {
-    if (file == "-") {
-        std::fputs(text.c_str(), stdout);
-        return;
-    }
-    writeTextFile(file, text);
-}
-
 ImageOptions imageOptions(const RenderOptions& options, const Scene& scene,
                           const RenderStatistics& statistics) {
     const double pixels = static_cast<double>(scene.render.width) * scene.render.height;
@@ -167,25 +104,64 @@ void warn(const std::string& text) {
     fmt::print(stderr, "duolux: warning: {}\n", text);
 }
 
-void warnAboutResult(const Scene& scene, const RenderStatistics& statistics) {
-    if (statistics.stillGrowing()) {
-        warn(fmt::format(
-            "the {} bounces allowed were not enough: the last one still added {:.2g} % of the image's "
-            "radiance (the one before it {:.2g} %), so this is the picture of that many bounces",
-            scene.render.bounces, 100.0 * statistics.lastBounceRadiance / statistics.meanRadiance,
-            100.0 * statistics.previousBounceRadiance / statistics.meanRadiance));
+std::string percent(double part, double whole) {
+    const double value = 100.0 * part / whole;
+    return value < 10.0 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
+}
+
+/// What the user should know of a finished render.
+std::vector<std::string> resultWarnings(const Scene& scene, const RenderStatistics& statistics) {
+    std::vector<std::string> warnings;
+    const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
+    if (statistics.stopped && !interrupted()) {
+        warnings.push_back(fmt::format("stopped at the time limit after {:.4g} of {} samples per pixel",
+                                       static_cast<double>(statistics.samples) / static_cast<double>(pixels),
+                                       scene.render.spp));
     }
-    if (statistics.nonFiniteSamples > 0) {
-        warn(fmt::format("{} samples were not finite and were dropped", statistics.nonFiniteSamples));
+    if (statistics.cutOffByBounces()) {
+        warnings.push_back(fmt::format(
+            "the limit of {} cuts light off: the last of them added {} of the image's "
+            "radiance, the one "
+            "before it {}; so this is the picture of that many",
+            scene.render.bounces == 1 ? "1 bounce" : fmt::format("{} bounces", scene.render.bounces),
+            percent(statistics.lastBounceRadiance, statistics.meanRadiance),
+            percent(statistics.previousBounceRadiance, statistics.meanRadiance)));
     }
-    if (statistics.filmOverflowed) warn("some pixels are brighter than the film can hold and were clamped");
+    if (statistics.nonFiniteSamples > 0)
+        warnings.push_back(
+            fmt::format("{} samples were not finite and were dropped", statistics.nonFiniteSamples));
+    if (statistics.filmOverflowed) {
+        warnings.emplace_back(
+            "some pixels are brighter than the film can hold and were clamped; does the light grow with "
+            "every bounce?");
+    }
+    return warnings;
+}
+
+/// Writes all that can be written; then throws for the first that could not.
+void writeImages(const std::vector<std::string>& files, const RadianceImage& image,
+                 const ImageOptions& options) {
+    std::exception_ptr failure;
+    for (const std::string& file : files) {
+        try {
+            writeImage(file, image, options);
+        } catch (const Error&) {
+            if (!failure) failure = std::current_exception();
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
 }
 
 void runRender(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) outputs.push_back(std::filesystem::path(options.scene).stem().string() + ".png");
-    checkOutputs(outputs, options.report);
+    std::vector<OutputFile> files;
+    for (const std::string& output : outputs)
+        files.push_back({"-o", output});
+    if (!options.report.empty() && options.report != "-")
+        files.push_back({"--report", options.report, false});
+    checkOutputs(files, {options.scene});
     const Overrides overrides = parseOverrides(options);
     catchInterrupts();
 
@@ -208,18 +184,25 @@ void runRender(const RenderOptions& options) {
     const RenderOutput output = render(device, scene, control);
     progress.finish();
 
-    const Clock::time_point writeStart = Clock::now();
-    const RadianceImage image = output.film.resolve();
-    const ImageOptions imageSettings = imageOptions(options, scene, output.statistics);
-    for (const std::string& file : outputs)
-        writeImage(file, image, imageSettings);
-    seconds.write = secondsSince(writeStart);
-    seconds.total = secondsSince(start);
-
-    warnAboutResult(scene, output.statistics);
-    if (!options.report.empty()) {
-        writeReport(options.report, renderReport(scene, device.info(), output.statistics, seconds));
+    for (const std::string& warning : resultWarnings(scene, output.statistics)) {
+        warn(warning);
+        scene.warnings.push_back(warning);
     }
+    const Clock::time_point writeStart = Clock::now();
+    const auto finish = [&] {
+        seconds.write = secondsSince(writeStart);
+        seconds.total = secondsSince(start);
+        if (options.report.empty()) return;
+        writeReport(options.report, renderReport(scene, device.info(), output.statistics, seconds));
+    };
+    try {
+        writeImages(outputs, output.film.resolve(), imageOptions(options, scene, output.statistics));
+    } catch (const Error&) {
+        finish();
+        throw;
+    }
+    finish();
+
     if (output.statistics.stopped && interrupted()) {
         throw Error(
             ExitStatus::kInterrupted,
@@ -235,9 +218,9 @@ void addRenderCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to images");
     command->add_option("SCENE", options->scene, "The scene: .obj (with its .mtl) or .json")->required();
     command
-        ->add_option(
-            "-o,--output", options->outputs,
-            "Image to write: .exr, .png or .pfm; may be given several times (default: SCENE's name + .png)")
+        ->add_option("-o,--output", options->outputs,
+                     "Image to write: .exr, .png or .pfm; may be given several times (default: SCENE's name "
+                     "+ .png in the current folder)")
         ->type_name("FILE")
         ->expected(1)
         ->take_all();
@@ -245,7 +228,9 @@ void addRenderCommand(CLI::App& app) {
     for (const Preset& preset : presets())
         names.emplace_back(preset.name);
     CLI::Option* preset =
-        command->add_option("--preset", options->preset, "Scene-wide reflectance of the paper")
+        command
+            ->add_option("--preset", options->preset,
+                         "Scene-wide reflectance of the paper (default: the scene's, or global)")
             ->type_name("NAME")
             ->check(CLI::IsMember(names));
     command
@@ -254,17 +239,22 @@ void addRenderCommand(CLI::App& app) {
                      "(local 1,0; global 0,1; shadowless 1,1; one-bounce 0,0)")
         ->type_name("T,O")
         ->excludes(preset);
-    command->add_option("--spp", options->spp, "Samples per pixel")
+    command->add_option("--spp", options->spp, "Samples per pixel (default: the scene's, or 64)")
         ->type_name("N")
-        ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--size", options->size, "Image size as WIDTHxHEIGHT")->type_name("WIDTHxHEIGHT");
-    command->add_option("--bounces", options->bounces, "Largest number of scattering events on a path")
+        ->check(wholeNumber(1, 1 << 24));
+    command->add_option("--size", options->size, "Image size (default: the scene's, or 512x512)")
+        ->type_name("WIDTHxHEIGHT");
+    command
+        ->add_option("--bounces", options->bounces,
+                     "Largest number of scattering events on a path (default: the scene's, or 16)")
         ->type_name("N")
-        ->check(CLI::Range(0, 65535));
-    command->add_option("--seed", options->seed, "Seed of the random numbers")->type_name("N");
+        ->check(wholeNumber(0, 65535));
+    command->add_option("--seed", options->seed, "Seed of the random numbers (default: the scene's, or 1)")
+        ->type_name("N")
+        ->check(wholeNumber(0, 0xffffffff));
     command
         ->add_option("--sampler", options->sampler,
-                     "Samples: Owen-scrambled Sobol points, or independent ones")
+                     "Samples: Owen-scrambled Sobol points (the default), or independent ones")
         ->type_name("NAME")
         ->check(CLI::IsMember({"sobol", "independent"}));
     command
@@ -274,10 +264,11 @@ void addRenderCommand(CLI::App& app) {
         ->type_name("DEVICE");
     command
         ->add_option("--time-limit", options->timeLimit,
-                     "Stop after this many seconds of rendering with what has been accumulated")
+                     "Stop before this many seconds of rendering with what has been accumulated, but not "
+                     "before every pixel has one sample")
         ->type_name("SECONDS")
         ->check(between(1e-3, 1e9));
-    command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened")
+    command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")
         ->type_name("STOPS")
         ->check(between(-64.0, 64.0));
     command

@@ -71,7 +71,7 @@ std::string renderReport(const Scene& scene, const DeviceInfo& device, const Ren
     report["radiance"] = {{"mean", statistics.meanRadiance},
                           {"last_bounce", statistics.lastBounceRadiance},
                           {"previous_bounce", statistics.previousBounceRadiance},
-                          {"still_growing", statistics.stillGrowing()}};
+                          {"cut_off_by_bounces", statistics.cutOffByBounces()}};
     report["peak_bytes"] = {{"host", peakHostBytes()}, {"device", statistics.deviceBytes}};
     report["warnings"] = scene.warnings;
     return report.dump(2) + "\n";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/options.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/film/image.h"
@@ -26,10 +27,7 @@ struct SheetOptions {
 };
 
 void runSheet(const SheetOptions& options) {
-    if (!isImagePath(options.output)) {
-        throw UsageError(
-            fmt::format("-o {}: unknown image format; expected .png, .exr or .pfm", options.output));
-    }
+    checkOutputs({{"-o", options.output}}, options.images);
     if (options.labels.size() > options.images.size()) {
         throw UsageError(
             fmt::format("--label was given {} times for {} images; expected one an image at most",

@@ -60,13 +60,15 @@ std::string formatDuration(double seconds) {
 }
 
 std::string progressLine(const ProgressState& state, int barWidth, bool finished) {
-    const double fraction = progressFraction(state);
+    const double fraction = finished ? (state.total > 0.0 ? std::min(state.done / state.total, 1.0) : 0.0)
+                                     : progressFraction(state);
     // 100 % only when nothing is left.
     std::string line = fmt::format("{:3.0f} %", std::floor(100.0 * fraction));
     if (barWidth >= 3) line += ' ' + bar(fraction, barWidth);
     if (state.seconds > 0.0) line += fmt::format(" {:.2f} Msamples/s", state.done / state.seconds * 1e-6);
     if (finished) {
-        line += fmt::format(", {} in all", formatDuration(state.seconds));
+        line += state.seconds < 60.0 ? fmt::format(", {:.1f} s in all", state.seconds)
+                                     : fmt::format(", {} in all", formatDuration(state.seconds));
     } else if (const auto left = secondsLeft(state)) {
         line += fmt::format(", {} left", formatDuration(*left));
     }

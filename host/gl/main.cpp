@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "host/app/options.h"
 #include "host/base/error.h"
-#include "host/base/file.h"
 #include "host/base/version.h"
 #include "host/film/image.h"
 #include "host/gl/context.h"
@@ -29,9 +29,8 @@ double secondsSince(Clock::time_point start) {
 }
 
 struct Arguments {
-    std::string scene, lights = "5", lighting = "fixed-function", report;
+    std::string scene, lights = "5", lighting = "fixed-function", size, report;
     std::vector<std::string> outputs;
-    std::vector<std::uint32_t> size;
     std::vector<float> window{0.0f, 0.0f, 1.0f, 1.0f};
     std::uint32_t passes = 64;
     float exposure = 0.0f;
@@ -55,28 +54,22 @@ void writeImages(const Arguments& arguments, const Scene& scene, std::vector<glm
         writeImage(output, image, options);
 }
 
-void writeReport(const std::string& path, const nlohmann::ordered_json& report) {
-    const std::string text = report.dump(2) + "\n";
-    if (path == "-") {
-        fmt::print("{}", text);
-    } else {
-        writeTextFile(path, text);
-    }
-}
-
 void run(const Arguments& arguments) {
     const Tiling tiling = Tiling::parse(arguments.lights);
-    for (const std::string& output : arguments.outputs) {
-        if (!isImagePath(output))
-            throw UsageError(fmt::format("-o {}: unknown image format; expected .exr, .png or .pfm", output));
-    }
+    std::vector<OutputFile> files;
+    for (const std::string& output : arguments.outputs)
+        files.push_back({"-o", output});
+    if (!arguments.report.empty() && arguments.report != "-")
+        files.push_back({"--report", arguments.report, false});
+    checkOutputs(files, {arguments.scene});
     const Clock::time_point start = Clock::now();
     Scene scene = loadScene(arguments.scene);
     for (const std::string& warning : scene.warnings)
         fmt::print(stderr, "duolux-gl: warning: {}\n", warning);
     if (!arguments.size.empty()) {
-        scene.render.width = arguments.size[0];
-        scene.render.height = arguments.size[1];
+        const glm::uvec2 size = parseSize(arguments.size);
+        scene.render.width = size.x;
+        scene.render.height = size.y;
     }
     DrawOptions options;
     options.lighting = lightingOf(arguments.lighting);
@@ -120,7 +113,7 @@ void run(const Arguments& arguments) {
                          {"upload", uploadSeconds},
                          {"draw", drawSeconds},
                          {"total", secondsSince(start)}};
-    writeReport(arguments.report, report);
+    writeReport(arguments.report, report.dump(2) + "\n");
 }
 
 int fail(const std::string& line, ExitStatus status) {
@@ -154,22 +147,19 @@ int parseAndRun(int argc, char** argv) {
         ->capture_default_str()
         ->type_name("NAME");
     app.add_option("--passes", arguments.passes, "Jittered images to average: samples per pixel")
-        ->check(CLI::Range(1, 65536))
+        ->check(wholeNumber(1, 65536))
         ->capture_default_str()
         ->type_name("N");
     app.add_option("--size", arguments.size, "Image size as WIDTHxHEIGHT (default: the scene's)")
-        ->delimiter('x')
-        ->expected(2)
-        ->check(CLI::Range(1, 16384))
         ->type_name("WIDTHxHEIGHT");
     app.add_option("--window", arguments.window,
                    "Part of the image to draw, as fractions of it: LEFT,TOP,WIDTH,HEIGHT")
         ->delimiter(',')
         ->expected(4)
-        ->check(CLI::Range(0.0f, 1.0f))
+        ->check(between(0.0, 1.0))
         ->type_name("L,T,W,H");
     app.add_option("--exposure", arguments.exposure, "Stops by which a PNG is brightened")
-        ->check(CLI::Range(-64.0f, 64.0f))
+        ->check(between(-64.0, 64.0))
         ->type_name("STOPS");
     app.add_option("--report", arguments.report, "Write statistics as JSON to this file (-: standard output)")
         ->type_name("FILE");
@@ -177,6 +167,8 @@ int parseAndRun(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {
         return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        return fail(describeParseError(app, e), ExitStatus::kUsage);
     }
     run(arguments);
     return 0;
@@ -190,8 +182,6 @@ int main(int argc, char** argv) {
     using duolux::ExitStatus;
     try {
         return duolux::parseAndRun(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return duolux::fail(fmt::format("{} (see 'duolux-gl --help')", e.what()), ExitStatus::kUsage);
     } catch (const duolux::Error& e) {
         return duolux::fail(e.what(), e.status());
     } catch (const std::exception& e) {

@@ -67,15 +67,17 @@ TransportTraits analyseTransport(const Scene& scene) {
 
     // Follow the components that can carry importance until none can.
     unsigned set = 3;
-    while (traits.effectiveBounces < scene.render.bounces) {
+    for (;;) {
         const unsigned crossed = set | transparent.after(set);
         const unsigned scattered = opaque.after(crossed | transparent.after(crossed));
         if (scattered == 0) break;
-        ++traits.effectiveBounces;
-        if (scattered == set) {  // goes on for ever
+        const bool forEver = scattered == set;
+        if (forEver || traits.effectiveBounces == scene.render.bounces) {
             traits.effectiveBounces = scene.render.bounces;
+            traits.limitedByBounces = true;
             break;
         }
+        ++traits.effectiveBounces;
         set = scattered;
     }
     return traits;

@@ -21,6 +21,7 @@ struct TransportTraits {
     /// Scattering events that can contribute to a pixel: the scene's `bounces`, or fewer where the matrices
     /// end every path earlier (1 for `local` and `one-bounce`).
     std::uint32_t effectiveBounces = 0;
+    bool limitedByBounces = false;  ///< more than `bounces` could contribute
 };
 
 TransportTraits analyseTransport(const Scene& scene);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "host/base/parallel.h"
 #include "shaders/embedded.h"
 
 namespace duolux {
@@ -55,24 +56,30 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
     return params;
 }
 
-// A team is a subgroup. On a CPU it is the work group, too: what runs at once are the few threads.
-std::uint32_t chooseTeamSize(const Device& device) {
-    return std::max(device.info().subgroupSize, 1u);
+bool onCpu(const Device& device) {
+    return device.info().kind == DeviceKind::kCpu;
 }
 
 std::uint32_t chooseWorkgroupSize(const Device& device, std::uint32_t teamSize) {
     const auto limits = device.physical().getProperties().limits;
-    const std::uint32_t wanted = device.info().kind == DeviceKind::kCpu ? teamSize : 64u;
+    // On a CPU a work group is about a team: what runs at once are the few threads.
+    const std::uint32_t wanted = onCpu(device) ? 8u : 64u;
     const std::uint32_t largest =
         std::min({wanted, limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations});
     return std::max(largest / teamSize, 1u) * teamSize;
 }
 
-// The more samples a team shares out, the less its lanes wait for the last one (on lavapipe from 64 on the
-// difference is within noise). But a GPU needs many teams, and lavapipe ends a subgroup's loops after 65535
-// iterations.
-std::uint32_t chooseTeamSamples(const Device& device, std::uint32_t teamSize) {
-    return (device.info().kind == DeviceKind::kCpu ? 128u : 16u) * teamSize;
+// On lavapipe 64 samples or more are within noise of each other, but 16 are 12 % slower; it ends the loops of
+// a subgroup after 65535 iterations, which rays with many crossings reach early. A GPU needs many teams more
+// than it needs this.
+std::uint32_t chooseLaneSamples(const Device& device, const TransportTraits& traits) {
+    if (!onCpu(device)) return 16u;
+    return traits.transmittance == shared::kTransmittanceGeneral ? 32u : 128u;
+}
+
+// So many teams at least, as long as they are full, keep the device busy: threads of a CPU four times over.
+std::uint32_t chooseFewestTeams(const Device& device) {
+    return onCpu(device) ? 4u * workerCount() : 8192u;
 }
 
 std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene,
@@ -107,15 +114,18 @@ Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const 
 
 PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
                        std::span<const std::uint32_t> pixels, std::uint32_t maxSlots)
-    : teamSize_(chooseTeamSize(device)),
+    : teamSize_(std::max(device.info().subgroupSize, 1u)),
       workgroupSize_(chooseWorkgroupSize(device, teamSize_)),
-      teamSamples_(chooseTeamSamples(device, teamSize_)),
+      fewestTeams_(chooseFewestTeams(device)),
+      laneSamples_(chooseLaneSamples(device, deviceScene.traits)),
       maxSlots_(maxSlots),
       params_(uploadParams(device, deviceScene, scene)),
       pixels_(Buffer::upload(device, BufferUse::kTexels, pixels, "pixel order")),
       results_(Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxSlots}, "results")),
-      teams_(Buffer::readback(device, 2 * sizeof(shared::TeamProgress) * std::uint64_t{maxSlots}, "progress",
-                              vk::BufferUsageFlagBits::eTransferDst)),
+      teams_(Buffer::device(
+          device, BufferUse::kStorage, 2 * sizeof(shared::TeamProgress) * std::uint64_t{maxSlots},
+          vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst, "progress")),
+      teamsRead_(Buffer::readback(device, teams_.size(), "progress", vk::BufferUsageFlagBits::eTransferDst)),
       kernel_(device, "path", spirv::kPathKernel,
               std::array<Binding, 9>{{{shared::kBindingNodes, &deviceScene.nodes},
                                       {shared::kBindingTriangles, &deviceScene.triangles},
@@ -130,45 +140,55 @@ PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, con
       commands_{CommandSlot(device), CommandSlot(device)} {}
 
 std::uint64_t PathKernel::deviceBytes() const {
-    return params_.allocated() + pixels_.allocated() + results_.allocated() + teams_.allocated();
+    return params_.allocated() + pixels_.allocated() + results_.allocated() + teamsRead_.allocated() +
+           teams_.allocated();
 }
 
-void PathKernel::submit(unsigned lane, const WorkRange& range) {
-    assert(range.slots <= maxSlots_ && range.samples <= kMaxSamples);
-    const std::uint32_t teamSlots = std::max(teamSamples_ / range.samples, 1u);
-    submitted_[lane] = {range, teamSamples_, teamSlots};
-    const std::uint32_t firstTeam = lane * maxSlots_;
+void PathKernel::submit(unsigned place, const WorkRange& range) {
+    assert(range.slots <= maxSlots_ && range.samples <= std::min(kMaxSamples, laneSamples_));
+    const std::uint32_t laneSlots = std::max(laneSamples_ / range.samples, 1u);
+    const std::uint32_t fairLaneSlots = std::max(range.slots / (fewestTeams_ * teamSize_), 1u);
+    const std::uint32_t teamSlots = std::min(laneSlots, fairLaneSlots) * teamSize_;
     const std::uint32_t teams = (range.slots + teamSlots - 1) / teamSlots;
-    const shared::DispatchParams push{range.firstSlot, range.slots,      range.firstSample, range.samples,
-                                      teamSlots,       lane * maxSlots_, firstTeam};
-    commands_[lane].submit("tracing paths", [&](const vk::raii::CommandBuffer& commands) {
+    submitted_[place] = {range, teamSlots, teams};
+    const std::uint32_t first = place * maxSlots_;  // of results and teams
+    const shared::DispatchParams push{
+        range.firstSlot, range.slots, range.firstSample, range.samples, teamSlots, first, first};
+    const std::uint64_t teamsOffset = first * sizeof(shared::TeamProgress);
+    const std::uint64_t teamsSize = teams * sizeof(shared::TeamProgress);
+    commands_[place].submit("tracing paths", [&](const vk::raii::CommandBuffer& commands) {
         using Stage = vk::PipelineStageFlagBits;
         using Access = vk::AccessFlagBits;
-        commands.fillBuffer(teams_.handle(), firstTeam * sizeof(shared::TeamProgress),
-                            teams * sizeof(shared::TeamProgress), 0);
-        // The other lane's dispatch writes the same buffers, elsewhere.
-        const vk::MemoryBarrier barrier(Access::eShaderWrite | Access::eTransferWrite,
-                                        Access::eShaderRead | Access::eShaderWrite);
-        commands.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer, Stage::eComputeShader, {}, barrier,
-                                 {}, {});
+        const auto barrier = [&](vk::PipelineStageFlags before, vk::AccessFlags written,
+                                 vk::PipelineStageFlags after, vk::AccessFlags used) {
+            commands.pipelineBarrier(before, after, {}, vk::MemoryBarrier(written, used), {}, {});
+        };
+        const vk::AccessFlags shader = Access::eShaderRead | Access::eShaderWrite;
+        // The dispatch in the other place uses other parts of the same buffers.
+        barrier(Stage::eComputeShader | Stage::eTransfer,
+                shader | Access::eTransferRead | Access::eTransferWrite,
+                Stage::eComputeShader | Stage::eTransfer, shader | Access::eTransferWrite);
+        commands.fillBuffer(teams_.handle(), teamsOffset, teamsSize, 0);
+        barrier(Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader, shader);
         kernel_.dispatch(commands, push, (teams * teamSize_ + workgroupSize_ - 1) / workgroupSize_);
+        barrier(Stage::eComputeShader, Access::eShaderWrite, Stage::eTransfer, Access::eTransferRead);
+        commands.copyBuffer(teams_.handle(), teamsRead_.handle(),
+                            vk::BufferCopy(teamsOffset, teamsOffset, teamsSize));
     });
 }
 
-PathKernel::Results PathKernel::wait(unsigned lane) {
-    const double seconds = commands_[lane].wait("tracing paths");
+PathKernel::Results PathKernel::wait(unsigned place) {
+    const double seconds = commands_[place].wait("tracing paths");
     results_.invalidate();
-    teams_.invalidate();
-    const auto& [range, teamSamples, teamSlots] = submitted_[lane];
-    const auto* slots =
-        reinterpret_cast<const shared::SlotResult*>(results_.mapped()) + std::size_t{lane} * maxSlots_;
-    const auto* team =
-        reinterpret_cast<const shared::TeamProgress*>(teams_.mapped()) + std::size_t{lane} * maxSlots_;
+    teamsRead_.invalidate();
+    const auto& [range, teamSlots, teams] = submitted_[place];
+    const std::size_t first = std::size_t{place} * maxSlots_;
+    const auto* slots = reinterpret_cast<const shared::SlotResult*>(results_.mapped()) + first;
+    const auto* team = reinterpret_cast<const shared::TeamProgress*>(teamsRead_.mapped()) + first;
     bool complete = true;
-    for (std::uint32_t slot = 0; slot < range.slots; slot += teamSlots, ++team) {
-        complete = complete && team->finished == std::min(teamSlots, range.slots - slot);
-    }
-    return {range, teamSamples, complete, {slots, range.slots}, seconds};
+    for (std::uint32_t i = 0; i < teams; ++i)
+        complete = complete && team[i].finished == std::min(teamSlots, range.slots - i * teamSlots);
+    return {range, teamSlots / teamSize_ * range.samples, complete, {slots, range.slots}, seconds};
 }
 
 }  // namespace duolux

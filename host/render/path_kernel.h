@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
 #include "host/gpu/device_scene.h"
+#include "host/render/schedule.h"
 #include "host/scene/scene.h"
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
@@ -11,14 +13,6 @@
 #include "shaders/shared/path_layout.h"
 
 namespace duolux {
-
-/// A range of work: samples [firstSample, firstSample + samples) of the slots [firstSlot, firstSlot + slots).
-struct WorkRange {
-    std::uint32_t firstSlot = 0, slots = 0;
-    std::uint32_t firstSample = 0, samples = 0;
-
-    std::uint64_t size() const { return std::uint64_t{slots} * samples; }
-};
 
 /// The path-tracing kernel, specialised for a scene. Slots are pixels in the order of `pixels`.
 class PathKernel {
@@ -35,31 +29,33 @@ class PathKernel {
     std::uint32_t maxSlots() const { return maxSlots_; }
     std::uint64_t deviceBytes() const;
 
-    /// Samples that a team of lanes takes in one dispatch, over all its slots (but at least one slot's).
-    std::uint32_t teamSamples() const { return teamSamples_; }
-    void limitTeamSamples(std::uint32_t samples) { teamSamples_ = samples; }
+    /// Samples that a lane takes in one dispatch, over all its slots. The more, the less the lanes of a team
+    /// wait for the last one; but drivers may end long loops.
+    std::uint32_t laneSamples() const { return laneSamples_; }
+    void limitLaneSamples(std::uint32_t samples) { laneSamples_ = std::min(laneSamples_, samples); }
 
-    /// Two dispatches may be in flight: `lane` 0 and 1.
-    void submit(unsigned lane, const WorkRange& range);
+    /// Two dispatches may be in flight, in the places 0 and 1. A range has at most laneSamples() samples of a
+    /// slot.
+    void submit(unsigned place, const WorkRange& range);
 
     struct Results {
         WorkRange range;
-        std::uint32_t teamSamples;  ///< as it was at submit
+        std::uint32_t laneSamples;  ///< the most that a lane had to take
         bool complete;              ///< no team was cut short by the driver
         std::span<const shared::SlotResult> slots;
         double deviceSeconds;
     };
-    /// Waits for the dispatch of a lane. What is returned is valid until the next submit to that lane.
-    Results wait(unsigned lane);
+    /// Waits for the dispatch in a place. What is returned is valid until the next submit to it.
+    Results wait(unsigned place);
 
   private:
     struct Submitted {
         WorkRange range;
-        std::uint32_t teamSamples = 0, teamSlots = 0;
+        std::uint32_t teamSlots = 0, teams = 0;
     };
 
-    std::uint32_t teamSize_, workgroupSize_, teamSamples_, maxSlots_;
-    Buffer params_, pixels_, results_, teams_;
+    std::uint32_t teamSize_, workgroupSize_, fewestTeams_, laneSamples_, maxSlots_;
+    Buffer params_, pixels_, results_, teams_, teamsRead_;
     Kernel kernel_;
     std::array<CommandSlot, 2> commands_;
     std::array<Submitted, 2> submitted_{};

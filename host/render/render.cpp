@@ -21,50 +21,6 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// A dispatch should take about this long: short enough for watchdogs and a prompt stop, long enough to hide
-// its cost.
-constexpr double kDispatchSeconds = 0.1;
-
-/// Cuts the work into dispatches: a first pass of one sample for every pixel, then passes of several, each
-/// pass in runs of pixels whose size follows the measured speed. What is stopped early has about as many
-/// samples everywhere.
-class Schedule {
-  public:
-    Schedule(std::uint32_t slots, std::uint32_t spp, std::uint32_t maxSlots, std::uint32_t maxSamples)
-        : slots_(slots), spp_(spp), maxSlots_(maxSlots), maxSamples_(maxSamples) {}
-
-    bool done() const { return firstSample_ >= spp_; }
-    bool inFirstPass() const { return firstSample_ == 0; }
-
-    /// The next range; secondsPerSample <= 0: not known yet.
-    WorkRange next(double secondsPerSample) {
-        const WorkRange range{firstSlot_, chooseSlots(secondsPerSample * samples_), firstSample_, samples_};
-        firstSlot_ += range.slots;
-        if (firstSlot_ == slots_) {
-            firstSlot_ = 0;
-            firstSample_ += samples_;
-            samples_ = std::min(maxSamples_, spp_ - firstSample_);
-        }
-        return range;
-    }
-
-    /// Takes at most so many samples of a pixel in one dispatch, from the next pass on.
-    void limitSamples(std::uint32_t samples) { maxSamples_ = std::min(maxSamples_, samples); }
-
-  private:
-    std::uint32_t chooseSlots(double secondsPerSlot) const {
-        constexpr double kUnit = 256.0;  // so that few teams of lanes have less than a full share
-        double slots = secondsPerSlot > 0.0 ? kDispatchSeconds / secondsPerSlot : 4.0 * kUnit;
-        slots = std::max(std::floor(slots / kUnit), 1.0) * kUnit;
-        return static_cast<std::uint32_t>(
-            std::min({slots, static_cast<double>(maxSlots_), static_cast<double>(slots_ - firstSlot_)}));
-    }
-
-    std::uint32_t slots_, spp_, maxSlots_, maxSamples_;
-    std::uint32_t firstSample_ = 0, samples_ = 1;  // the pass under way
-    std::uint32_t firstSlot_ = 0;
-};
-
 class Renderer {
   public:
     Renderer(Device& device, const Scene& scene, const RenderControl& control)
@@ -85,6 +41,7 @@ class Renderer {
         statistics_.buildSeconds = deviceScene_.buildSeconds;
         statistics_.uploadSeconds = deviceScene_.uploadSeconds;
         statistics_.effectiveBounces = deviceScene_.traits.effectiveBounces;
+        statistics_.limitedByBounces = deviceScene_.traits.limitedByBounces;
         statistics_.deviceBytes = deviceScene_.deviceBytes() + kernel.deviceBytes();
 
         trace(kernel);
@@ -107,40 +64,32 @@ class Renderer {
                 : PathKernel::kMaxSamples;
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), scene_.render.spp, kernel.maxSlots(),
                           maxSamples);
+        if (control_.maxSamplesPerLane > 0) kernel.limitLaneSamples(control_.maxSamplesPerLane);
         start_ = lastReceived_ = Clock::now();
         unsigned submitted = 0;
         unsigned received = 0;
-        std::vector<WorkRange> cutShort;
+        bool timeIsUp = false;
         for (;;) {
             // Keep two dispatches in flight, so that the device works while the host adds up.
-            while (submitted - received < 2 && !schedule.done() && !statistics_.stopped) {
-                if (outOfTime(schedule, secondsSince(start_))) {
-                    statistics_.stopped = true;
-                    break;
-                }
-                kernel.submit(submitted++ % 2, schedule.next(secondsPerSample_));
+            while (submitted - received < 2 && !statistics_.stopped) {
+                timeIsUp = timeIsUp || (control_.timeLimit &&
+                                        secondsSince(start_) + kDispatchSeconds > *control_.timeLimit);
+                const auto range = schedule.next(secondsPerSample_, kernel.laneSamples(), timeIsUp);
+                if (!range) break;
+                kernel.submit(submitted++ % 2, *range);
             }
             if (submitted == received) break;
-            if (const std::optional<WorkRange> cut = receive(kernel, received++ % 2)) {
-                cutShort.push_back(*cut);
-                schedule.limitSamples(kernel.teamSamples());
-            }
-            if (!statistics_.stopped) reportProgress();
+            if (const auto range = receive(kernel, received++ % 2)) schedule.retry(*range);
+            reportProgress();
         }
-        for (const WorkRange& range : cutShort)
-            redo(kernel, range);
+        statistics_.stopped = statistics_.samples < std::uint64_t{scene_.render.spp} * pixels_.size();
         reportProgress();
-    }
-
-    bool outOfTime(const Schedule& schedule, double elapsed) const {
-        return control_.timeLimit && !schedule.inFirstPass() &&
-               elapsed + kDispatchSeconds > *control_.timeLimit;
     }
 
     /// Waits for a dispatch and adds up what it has traced; or returns what the driver has cut short, to be
     /// traced again with a smaller share for each team.
-    std::optional<WorkRange> receive(PathKernel& kernel, unsigned lane) {
-        const PathKernel::Results results = kernel.wait(lane);
+    std::optional<WorkRange> receive(PathKernel& kernel, unsigned place) {
+        const PathKernel::Results results = kernel.wait(place);
         if (statistics_.dispatches++ == 0) statistics_.firstDispatchSeconds = secondsSince(start_);
         statistics_.longestDispatchSeconds =
             std::max(statistics_.longestDispatchSeconds, results.deviceSeconds);
@@ -157,30 +106,17 @@ class Renderer {
             add(results);
             return std::nullopt;
         }
-        if (results.teamSamples == 1) {
-            throw MachineError(
-                fmt::format("tracing paths failed on {} ({}): the driver cut a single path short; render "
-                            "with fewer bounces than {}",
-                            device_.info().name, device_.info().driver, scene_.render.bounces));
+        // Some drivers end all loops of an invocation after a fixed number of iterations, without a word.
+        // What this happened to is thrown away and traced again.
+        if (results.laneSamples == 1) {
+            throw MachineError(fmt::format(
+                "tracing paths failed on {} ({}): the driver ended the loops of a single path; render "
+                "with fewer bounces than {}, or with fewer surfaces that light passes through",
+                device_.info().name, device_.info().driver, scene_.render.bounces));
         }
-        kernel.limitTeamSamples(std::min(kernel.teamSamples(), results.teamSamples / 2));
+        kernel.limitLaneSamples(results.laneSamples / 2);
         ++statistics_.dispatchesCutShort;
         return results.range;
-    }
-
-    /// Some drivers end all loops of an invocation after a fixed number of iterations, without a word. A
-    /// dispatch that this happened to is thrown away and traced again.
-    void redo(PathKernel& kernel, WorkRange range) {
-        while (range.samples > 0) {
-            reportProgress();
-            if (statistics_.stopped) return;
-            WorkRange part = range;
-            part.samples = std::min(range.samples, kernel.teamSamples());
-            kernel.submit(0, part);
-            if (receive(kernel, 0)) continue;
-            range.firstSample += part.samples;
-            range.samples -= part.samples;
-        }
     }
 
     /// Tells the caller, who may stop the render.
@@ -243,8 +179,14 @@ class Renderer {
 
 }  // namespace
 
-bool RenderStatistics::stillGrowing() const {
-    return lastBounceRadiance > 0.01 * std::abs(meanRadiance);
+bool RenderStatistics::cutOffByBounces() const {
+    const double negligible = 0.01 * std::abs(meanRadiance);
+    if (!limitedByBounces || effectiveBounces == 0) return false;
+    if (lastBounceRadiance > negligible) return true;
+    // Between parallel surfaces only every other bounce may reach the camera: a term that vanishes all at
+    // once says nothing of the next.
+    return effectiveBounces > 2 && previousBounceRadiance > negligible &&
+           lastBounceRadiance < 0.01 * previousBounceRadiance;
 }
 
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {

@@ -24,10 +24,10 @@ struct RenderControl {
     /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the
     /// same.
     std::optional<double> timeLimit;
-    /// Largest number of samples of one pixel in one dispatch, and of pixels in one dispatch; 0: chosen by
-    /// measured time. Neither changes a bit of the image.
-    std::uint32_t maxSamplesPerDispatch = 0;
+    /// For tests; 0: no limit but the renderer's own. None changes a bit of the image.
+    std::uint32_t maxSamplesPerDispatch = 0;  ///< of one pixel
     std::uint32_t maxPixelsPerDispatch = 0;
+    std::uint32_t maxSamplesPerLane = 0;  ///< in one dispatch, over all pixels that a lane takes
 };
 
 struct RenderStatistics {
@@ -52,8 +52,10 @@ struct RenderStatistics {
         0;                 ///< scattering events that can contribute: at most the scene's `bounces`
     bool stopped = false;  ///< ended before all samples were taken
 
+    bool limitedByBounces = false;  ///< more scattering events than `bounces` could contribute
+
     /// The bounce limit cut off a series whose terms were not yet negligible (more than 1 % of the image).
-    bool stillGrowing() const;
+    bool cutOffByBounces() const;
 };
 
 struct RenderOutput {

@@ -92,7 +92,8 @@ float JsonNode::number(float low, float high, std::string_view remedy) const {
 }
 
 std::uint32_t JsonNode::integer(std::uint32_t low, std::uint32_t high) const {
-    const std::string remedy = fmt::format("expected a whole number from {} to {}", low, high);
+    const std::string remedy = low == high ? fmt::format("expected {}", low)
+                                           : fmt::format("expected a whole number from {} to {}", low, high);
     if (!value_->is_number()) failValue(remedy);
     const double number = value_->get<double>();
     if (!(number >= low && number <= high) || number != std::floor(number)) failValue(remedy);

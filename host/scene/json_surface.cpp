@@ -34,10 +34,9 @@ Reflectance readPreset(const JsonNode& node) {
 }
 
 Reflectance readBlend(const JsonNode& node) {
-    const std::string remedy = fmt::format("expected [t, o], two numbers from 0 to {:g}", kLargestFactor);
+    const std::string remedy = "expected [t, o], two numbers from 0 to 1";
     const std::vector<JsonNode> point = node.elements(remedy, 2);
-    return blendReflectance(point[0].number(0.0f, kLargestFactor, remedy),
-                            point[1].number(0.0f, kLargestFactor, remedy));
+    return blendReflectance(point[0].number(0.0f, 1.0f, remedy), point[1].number(0.0f, 1.0f, remedy));
 }
 
 Sides readSides(const JsonNode& node) {

@@ -112,8 +112,17 @@ Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::
     write(staging);
     runOnce(device, fmt::format("uploading {}", name), [&](const vk::raii::CommandBuffer& commands) {
         commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy(0, 0, bytes.size()));
+        // A fence makes what was copied available; this makes it visible to all that will read it.
+        commands.pipelineBarrier(
+            vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eAllCommands, {},
+            vk::MemoryBarrier(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eMemoryRead), {}, {});
     });
     return buffer;
+}
+
+Buffer Buffer::device(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
+                      std::string_view name) {
+    return Buffer(device, use, size, extra, Memory::kDevice, name);
 }
 
 Buffer Buffer::readback(const Device& device, std::uint64_t size, std::string_view name,

@@ -28,6 +28,10 @@ class Buffer {
         return upload(device, use, std::as_bytes(items), name);
     }
 
+    /// Written and read by the device alone.
+    static Buffer device(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
+                         std::string_view name);
+
     /// Written by the device, read by the host through mapped(); `extra`: uses beyond that in kernels.
     static Buffer readback(const Device& device, std::uint64_t size, std::string_view name,
                            vk::BufferUsageFlags extra = {});

@@ -60,7 +60,9 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, Validation val
     try {
         return vk::raii::Instance(context, create);
     } catch (const vk::SystemError& e) {
-        throw MachineError(fmt::format("cannot create a Vulkan instance: {}", e.what()));
+        throw MachineError(fmt::format(
+            "cannot create a Vulkan instance: {}; is a driver installed? (Debian: mesa-vulkan-drivers)",
+            e.what()));
     }
 }
 

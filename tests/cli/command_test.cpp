@@ -40,7 +40,7 @@ TEST_F(Command, DevicesShowsTheSoftwareDriverAndTheChoice) {
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("llvmpipe"));
     EXPECT_THAT(result.out, HasSubstr("subgroup size"));
-    EXPECT_THAT(result.out, HasSubstr("* 0: "));
+    EXPECT_THAT(result.out, HasSubstr("* "));
 }
 
 TEST_F(Command, InfoTellsWhatWasLoaded) {

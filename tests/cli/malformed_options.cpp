@@ -14,8 +14,8 @@ std::vector<WrongUsage> wrongUsages() {
         return WrongUsage{name, std::move(arguments), std::move(words)};
     };
     return {
-        {"NoCommand", {}, {"subcommand"}},
-        {"UnknownCommand", {"rendre", "good.obj"}, {}},
+        {"NoCommand", {}, {"expected a command", "render"}},
+        {"UnknownCommand", {"rendre", "good.obj"}, {"rendre", "\"render\""}},
         {"RenderWithoutScene", {"render"}, {"SCENE"}},
         {"InfoWithoutScene", {"info"}, {"SCENE"}},
         {"InfoOfTwoScenes", {"info", "good.obj", "other.obj"}, {"other.obj"}},
@@ -31,7 +31,11 @@ std::vector<WrongUsage> wrongUsages() {
         render("SizeHuge", {"--size", "640x16385"}, {"--size 640x16385", "16384"}),
         render("PresetUnknown", {"--preset", "glob"}, {"--preset", "glob", "global"}),
         render("BlendOfOne", {"--blend", "0.5"}, {"--blend 0.5", "T,O"}),
-        render("BlendNegative", {"--blend", "1,-1"}, {"--blend 1,-1", ">= 0"}),
+        render("BlendNegative", {"--blend", "1,-1"}, {"--blend 1,-1", "from 0 to 1"}),
+        render("BlendTooLarge", {"--blend", "2,0"}, {"--blend 2,0", "from 0 to 1"}),
+        render("OutputTwice", {"-o", "./out.png"}, {"./out.png", "written by -o"}),
+        render("OutputIsScene", {"--report", "good.obj"}, {"--report good.obj", "read by this command"}),
+        render("OutputIsFolder", {"--report", "."}, {"--report .", "is a folder"}),
         render("BlendNotFinite", {"--blend", "nan,1"}, {"--blend nan,1"}),
         render("PresetAndBlend", {"--preset", "local", "--blend", "1,1"}, {"--preset", "--blend"}),
         render("SamplerUnknown", {"--sampler", "halton"}, {"--sampler", "halton", "sobol"}),

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/film/image.h"
@@ -20,6 +21,8 @@ class RenderCommand : public testing::Test {
                          const std::string& scene = DUOLUX_ASSETS "/cornell/cornell.json",
                          std::optional<ProgramSignal> signal = std::nullopt) {
         arguments.insert(arguments.begin(), {"render", scene});
+        const bool choosesDevice = std::ranges::find(arguments, "--device") != arguments.end();
+        if (!choosesDevice) arguments.insert(arguments.end(), {"--device", "cpu"});
         return runDuolux(folder_.path(), arguments, signal);
     }
     RadianceImage image(const std::string& name) { return readImage(folder_.path() / name); }
@@ -119,23 +122,54 @@ TEST_F(RenderCommand, SaysSoWhenTheBounceLimitCutsAGrowingSeries) {
         std::vector<std::string>{"--size", "32x32", "--spp", "16", "--quiet", "-o", "a.png"};
     auto growing = settings;
     growing.insert(growing.end(), {"--preset", "shadowless", "--bounces", "4"});
-    EXPECT_THAT(render(growing).err, HasSubstr("the 4 bounces allowed were not enough"));
+    EXPECT_THAT(render(growing).err, HasSubstr("the limit of 4 bounces cuts light off"));
     auto converged = settings;
     converged.insert(converged.end(), {"--preset", "global", "--bounces", "16"});
     EXPECT_EQ(render(converged).err, "");
     auto single = settings;
     single.insert(single.end(), {"--preset", "one-bounce", "--bounces", "4"});
     EXPECT_EQ(render(single).err, "");
+    // Nothing more could come.
+    for (const char* preset : {"one-bounce", "local"}) {
+        auto first = settings;
+        first.insert(first.end(), {"--preset", preset, "--bounces", "1"});
+        EXPECT_EQ(render(first).err, "") << preset;
+    }
+}
+
+TEST_F(RenderCommand, SeesGrowthWhereOnlyEveryOtherBounceReachesTheCamera) {
+    // The camera looks down at a floor, above it are six quads and a lamp: light comes from above alone, so
+    // that only vertices met from above, the first, third, fifth ... of a path, are lit.
+    std::ofstream obj(folder_ / "stack.obj");
+    obj << "mtllib stack.mtl\n";
+    for (const double y : {-1.0, 0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 3.0}) {
+        for (const auto& [x, z] : {std::pair(-3, -3), {-3, 3}, {3, 3}, {3, -3}})
+            obj << "v " << x << " " << y << " " << z << "\n";
+        obj << (y == 3.0 ? "usemtl lamp\nf -1 -2 -3 -4\n" : "usemtl grey\nf -4 -3 -2 -1\n");
+    }
+    obj.close();
+    std::ofstream(folder_ / "stack.mtl") << "newmtl grey\nKd 0.9 0.9 0.9\nnewmtl lamp\nKd 0 0 0\nKe 5 5 5\n";
+    std::ofstream(folder_ / "stack.json")
+        << R"({"duolux": 1, "camera": {"position": [0, -0.5, 0], "target": [0, -1, 0], "up": [0, 0, -1], "vfov": 30},)"
+           R"( "objects": [{"mesh": "stack.obj"}]})";
+    for (const char* bounces : {"7", "8"}) {
+        const ProgramResult result = runDuolux(
+            folder_.path(), {"render", "stack.json", "--preset", "shadowless", "--bounces", bounces, "--size",
+                             "16x16", "--spp", "64", "--quiet", "-o", "stack.png", "--report", "stack.rep"});
+        EXPECT_THAT(result.err, HasSubstr("cuts light off")) << bounces << contentsOf(folder_ / "stack.rep");
+    }
 }
 
 TEST_F(RenderCommand, TimeLimitStopsCleanly) {
     const ProgramResult result = render({"--size", "128x128", "--spp", "1000000", "--time-limit", "1",
                                          "--quiet", "-o", "a.pfm", "--report", "r.json"});
     ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("stopped at the time limit"));
     const nlohmann::json report = nlohmann::json::parse(contentsOf(folder_.path() / "r.json"));
+    EXPECT_THAT(report["warnings"].dump(), HasSubstr("stopped at the time limit"));
     EXPECT_FALSE(report["samples"]["complete"]);
     EXPECT_GE(report["samples"]["taken"], 128 * 128);  // every pixel has at least one
-    // Pixels have different numbers of samples, and none is black for it.
+    // Pixels have different numbers of samples, and neither half is dark for it.
     const RadianceImage picture = image("a.pfm");
     double lower = 0.0;
     double upper = 0.0;
@@ -156,7 +190,7 @@ TEST_F(RenderCommand, InterruptWritesWhatThereIsAndExits130) {
     EXPECT_EQ(image("a.pfm").width, 64u);
 }
 
-TEST_F(RenderCommand, AFailedWriteLeavesTheOldPictureAlone) {
+TEST_F(RenderCommand, AMissingFolderIsSaidBeforeTheRender) {
     const ProgramResult result = render({"--size", "16x16", "--spp", "1", "-o", "missing/a.png"});
     EXPECT_EQ(result.status, 2);
     EXPECT_THAT(result.err, HasSubstr("there is no folder missing"));

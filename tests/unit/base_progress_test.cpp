@@ -42,8 +42,10 @@ TEST(SecondsLeft, FollowsTheMeanRate) {
 
 TEST(ProgressLine, ShowsPercentageRateAndTimeLeft) {
     EXPECT_EQ(progressLine({2.5e6, 10e6, 2.0, {}}, 0, false), " 25 % 1.25 Msamples/s, 0:06 left");
-    EXPECT_EQ(progressLine({10e6, 10e6, 8.0, {}}, 0, true), "100 % 1.25 Msamples/s, 0:08 in all");
+    EXPECT_EQ(progressLine({10e6, 10e6, 8.0, {}}, 0, true), "100 % 1.25 Msamples/s, 8.0 s in all");
     EXPECT_EQ(progressLine({0.0, 10e6, 0.0, {}}, 0, false), "  0 %");
+    // Stopped by a time limit: what has been done, not what has passed.
+    EXPECT_EQ(progressLine({1e6, 10e6, 8.0, 8.0}, 0, true), " 10 % 0.12 Msamples/s, 8.0 s in all");
     // Not quite done is not 100 %.
     EXPECT_THAT(progressLine({9.999e6, 10e6, 8.0, {}}, 0, false), HasSubstr(" 99 %"));
 }
@@ -52,7 +54,7 @@ TEST(ProgressLine, DrawsABarOfTheGivenWidth) {
     EXPECT_EQ(progressLine({0.0, 1.0, 0.0, {}}, 12, false), "  0 % [          ]");
     EXPECT_EQ(progressLine({0.5, 1.0, 0.0, {}}, 12, false), " 50 % [====>     ], 0:00 left");
     EXPECT_EQ(progressLine({1.0, 1.0, 0.0, {}}, 12, false), "100 % [==========], 0:00 left");
-    EXPECT_EQ(progressLine({0.5, 1.0, 0.0, {}}, 2, true), " 50 %, 0:00 in all");
+    EXPECT_EQ(progressLine({0.5, 1.0, 0.0, {}}, 2, true), " 50 %, 0.0 s in all");
 }
 
 /// What a Progress of this style wrote while `use` ran.
@@ -95,7 +97,7 @@ TEST(Progress, SaysOneLineOfShortWork) {
         progress.finish();
         progress.finish();
     };
-    EXPECT_EQ(outputOf(Progress::Style::kPlain, use), "100 % 1.00 Msamples/s, 0:01 in all\n");
+    EXPECT_EQ(outputOf(Progress::Style::kPlain, use), "100 % 1.00 Msamples/s, 1.0 s in all\n");
 }
 
 TEST(Progress, RewritesOneLineOnATerminal) {

@@ -32,6 +32,10 @@ TEST(Transport, Presets) {
     EXPECT_EQ(traitsOf("one-bounce").effectiveBounces, 1u);
     EXPECT_EQ(traitsOf("global").effectiveBounces, 16u);
     EXPECT_EQ(traitsOf("shadowless").effectiveBounces, 16u);
+    EXPECT_FALSE(traitsOf("local").limitedByBounces);
+    EXPECT_FALSE(traitsOf("one-bounce").limitedByBounces);
+    EXPECT_TRUE(traitsOf("global").limitedByBounces);
+    EXPECT_TRUE(traitsOf("shadowless").limitedByBounces);
     EXPECT_FALSE(traitsOf("local").invisibleScatters);
     EXPECT_TRUE(traitsOf("local").invisibleCrosses);
     for (const Preset& preset : presets()) {
@@ -78,6 +82,8 @@ TEST(Transport, EffectiveBouncesFollowTheComponents) {
     Reflectance reflectance;
     reflectance.opaque.m10 = glm::vec3(1.0f);
     EXPECT_EQ(analyseTransport(sceneWith(reflectance)).effectiveBounces, 1u);
+    EXPECT_FALSE(analyseTransport(sceneWith(reflectance, 1)).limitedByBounces);
+    EXPECT_TRUE(analyseTransport(sceneWith(reflectance, 0)).limitedByBounces);
     reflectance.opaque.m01 = glm::vec3(1.0f);
     EXPECT_EQ(analyseTransport(sceneWith(reflectance, 5)).effectiveBounces, 5u);
     // A crossing that turns invisible importance into visible closes the cycle, too.

@@ -1,0 +1,137 @@
+#include "host/app/options.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <filesystem>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/film/image.h"
+#include "host/scene/nearest_name.h"
+
+namespace duolux {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "A<separator>B" as two numbers.
+template <typename T>
+std::optional<std::pair<T, T>> parsePair(const std::string& text, char separator) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string::npos) return std::nullopt;
+    std::pair<T, T> values{};
+    const char* middle = text.data() + at;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), middle, values.first);
+    const auto second = std::from_chars(middle + 1, end, values.second);
+    if (first.ec != std::errc() || first.ptr != middle || second.ec != std::errc() || second.ptr != end) {
+        return std::nullopt;
+    }
+    return values;
+}
+
+}  // namespace
+
+std::optional<glm::vec2> parsePoint(const std::string& text) {
+    const auto values = parsePair<float>(text, ',');
+    if (!values) return std::nullopt;
+    return glm::vec2(values->first, values->second);
+}
+
+glm::uvec2 parseSize(const std::string& text) {
+    const auto values = parsePair<std::uint32_t>(text, 'x');
+    if (!values || values->first < 1 || values->second < 1 || values->first > 16384 ||
+        values->second > 16384) {
+        throw UsageError(
+            fmt::format("--size {}: expected WIDTHxHEIGHT, each from 1 to 16384, for example 640x480", text));
+    }
+    return {values->first, values->second};
+}
+
+CLI::Validator between(double lower, double upper) {
+    const std::string range = fmt::format("from {:g} to {:g}", lower, upper);
+    return CLI::Validator(
+        [=](std::string& text) {
+            double value = 0.0;
+            const bool fine = CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper;
+            return fine ? std::string() : fmt::format("expected a number {}, not {}", range, text);
+        },
+        range);
+}
+
+CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper) {
+    const std::string range = fmt::format("from {} to {}", lower, upper);
+    return CLI::Validator(
+        [=](std::string& text) {
+            std::uint64_t value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool fine =
+                error == std::errc() && end == text.data() + text.size() && value >= lower && value <= upper;
+            return fine ? std::string() : fmt::format("expected a whole number {}, not {}", range, text);
+        },
+        range);
+}
+
+void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs) {
+    const auto canonical = [](const std::string& file) {
+        std::error_code ignored;
+        return fs::weakly_canonical(fs::absolute(file), ignored);
+    };
+    std::vector<std::pair<fs::path, std::string>> taken;
+    for (const std::string& input : inputs) {
+        if (input.empty()) continue;
+        taken.emplace_back(canonical(input), "is read by this command");
+    }
+    for (const OutputFile& output : outputs) {
+        const auto fail = [&](const std::string& problem) {
+            throw UsageError(fmt::format("{} {}: {}", output.option, output.file, problem));
+        };
+        if (output.image && !isImagePath(output.file))
+            fail("unknown image format; expected .exr, .png or .pfm");
+        const fs::path path(output.file);
+        const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+        if (!fs::is_directory(folder)) fail(fmt::format("there is no folder {}", folder.string()));
+        if (fs::is_directory(path)) fail("is a folder; expected a file name");
+        if (::access(folder.c_str(), W_OK | X_OK) != 0)
+            fail(fmt::format("nothing may be written to the folder {}", folder.string()));
+        const fs::path resolved = canonical(output.file);
+        for (const auto& [other, use] : taken) {
+            if (resolved == other) fail(fmt::format("{}; expected another file", use));
+        }
+        taken.emplace_back(resolved, "is written by " + output.option + ", too");
+    }
+}
+
+void writeReport(const std::string& file, const std::string& text) {
+    if (file == "-") {
+        fmt::print("{}", text);
+    } else {
+        writeTextFile(file, text);
+    }
+}
+
+std::string describeParseError(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<const CLI::App*> parsed =
+        app.get_subcommands(static_cast<const std::function<bool(const CLI::App*)>&>(
+            [](const CLI::App* a) { return a->parsed() > 0; }));
+    const CLI::App& command = parsed.empty() ? app : *parsed.front();
+    const std::string help =
+        fmt::format("(see '{}{} --help')", app.get_name(), parsed.empty() ? "" : " " + command.get_name());
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+        std::vector<std::string> known;
+        for (const CLI::Option* option : command.get_options()) {
+            for (const std::string& name : option->get_lnames())
+                known.push_back("--" + name);
+        }
+        for (const std::string& word : app.remaining(true)) {
+            if (word.starts_with("--") && word != "--")
+                return fmt::format("{}: unknown option; {} {}", word, suggestName(word, known), help);
+        }
+    }
+    return fmt::format("{} {}", error.what(), help);
+}
+
+}  // namespace duolux

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace duolux {
+
+// What the options of several commands have in common. All throw UsageError.
+
+/// "A,B" as two numbers, or nothing.
+std::optional<glm::vec2> parsePoint(const std::string& text);
+
+/// "WIDTHxHEIGHT", each from 1 to 16384.
+glm::uvec2 parseSize(const std::string& text);
+
+/// Checks that an option's text is a number in [lower, upper], which NaN is not.
+CLI::Validator between(double lower, double upper);
+CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);
+
+/// A file that a command will write, and the option that names it.
+struct OutputFile {
+    std::string option, file;
+    bool image = true;  ///< its extension must be an image's
+};
+
+/// Says before the work what would go wrong after it: formats that are not known, folders that are missing or
+/// cannot be written to, folders in the place of files, and files that would overwrite one another or one of
+/// `inputs`.
+void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs);
+
+/// Writes the text of --report: to a file, or to standard output for "-". Throws MachineError.
+void writeReport(const std::string& file, const std::string& text);
+
+/// The line for an error of the command line's syntax.
+std::string describeParseError(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace duolux
