@@ -101,7 +101,7 @@ std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Sce
             {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent
                                                                                  : shared::kSamplerSobol},
             {shared::kSpecHasLights, deviceScene.lightCount > 0},
-            {shared::kSpecEmitterTree, deviceScene.hasEmitters},
+            {shared::kSpecHasEmitters, deviceScene.hasEmitters},
             {shared::kSpecTeamSize, teamSize}};
 }
 

@@ -13,12 +13,12 @@
 #include "shaders/shared/path_layout.h"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kLeaveTraversal = 6u;
-layout(constant_id = 2) const uint kLeaveNodes = 4u;
+layout(constant_id = 1) const uint kLeaveTraversal = 4u;
+layout(constant_id = 2) const uint kLeaveNodes = 3u;
 layout(constant_id = 10) const bool kSmoothNormals = true;
 layout(constant_id = 11) const uint kSampler = 0u;
 layout(constant_id = 12) const bool kHasLights = true;
-layout(constant_id = 13) const bool kEmitterTree = true;
+layout(constant_id = 13) const bool kHasEmitters = true;
 layout(constant_id = 14) const uint kTeamSize = 8u;
 
 layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
@@ -328,7 +328,7 @@ void main() {
                         emissionOnly = onlyEmissionLeft(path);
                     }
                 }
-                if (emissionOnly && !kEmitterTree) path.ended = true;
+                if (emissionOnly && !kHasEmitters) path.ended = true;
                 // Emitters along a ray that nothing else can stop are found in their own small tree.
                 bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
                 if (path.ended && !shadow.pending) {

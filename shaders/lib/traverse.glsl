@@ -2,7 +2,7 @@
 // resumed: lanes of a subgroup that have found their hit return to be given new rays while the others go on
 // (Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009).
 //
-// The kernel that includes this defines fetchNodeTexel and fetchTriangleTexel, and the two vote constants.
+// The kernel that includes this defines fetchNodeTexel and fetchTriangleTexel.
 #ifndef DUOLUX_LIB_TRAVERSE_GLSL
 #define DUOLUX_LIB_TRAVERSE_GLSL
 

@@ -31,7 +31,7 @@ DUOLUX_CONST uint kSpecOneReflectance = 9u;     // all materials share PathParam
 DUOLUX_CONST uint kSpecSmoothNormals = 10u;
 DUOLUX_CONST uint kSpecSampler = 11u;           // one of the kSampler... below
 DUOLUX_CONST uint kSpecHasLights = 12u;         // there is an emitter that next-event estimation can sample
-DUOLUX_CONST uint kSpecEmitterTree = 13u;       // something emits: there is a tree of emitters
+DUOLUX_CONST uint kSpecHasEmitters = 13u;       // something emits
 DUOLUX_CONST uint kSpecTeamSize = 14u;          // lanes that share a range of slots; divides the workgroup's size
 
 DUOLUX_CONST uint kSamplerSobol = 0u;       // Owen-scrambled Sobol points
