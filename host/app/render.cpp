@@ -35,7 +35,7 @@ double secondsSince(Clock::time_point start) {
 struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
-    std::string preset, blend, size, sampler, device, report;
+    std::string preset, blend, size, sampler, directLight = "auto", device, report;
     std::optional<std::uint32_t> spp, bounces, seed;
     std::optional<double> timeLimit;
     float exposure = 0.0f;
@@ -175,6 +175,10 @@ void runRender(const RenderOptions& options) {
     Device device(options.device);
     RenderControl control;
     control.timeLimit = options.timeLimit;
+    if (options.directLight != "auto") {
+        control.directLight =
+            options.directLight == "sampled" ? DirectLight::kSampled : DirectLight::kClosedForm;
+    }
     Progress progress(Progress::styleForStderr(options.quiet));
     control.onProgress = [&](const RenderProgress& p) {
         progress.update({static_cast<double>(p.samplesDone), static_cast<double>(p.samplesTotal), p.seconds,
@@ -257,6 +261,13 @@ void addRenderCommand(CLI::App& app) {
                      "Samples: Owen-scrambled Sobol points (the default), or independent ones")
         ->type_name("NAME")
         ->check(CLI::IsMember({"sobol", "independent"}));
+    command
+        ->add_option(
+            "--direct-light", options->directLight,
+            "Light from emitters: sampled; in closed form, without noise, where nothing can be in between "
+            "(local, shadowless); or auto, the second where it applies")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"auto", "sampled", "closed-form"}));
     command
         ->add_option(
             "--device", options->device,

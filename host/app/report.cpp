@@ -41,6 +41,7 @@ std::string renderReport(const Scene& scene, const DeviceInfo& device, const Ren
                           {"seed", scene.render.seed},
                           {"sampler", scene.render.sampler == Sampler::kSobol ? "sobol" : "independent"},
                           {"integrator", "path"},
+                          {"direct_light", statistics.directLightInClosedForm ? "closed-form" : "sampled"},
                           {"reflectance", describeReflectance(scene.reflectance)}};
     report["device"] = {{"name", device.name},
                         {"driver", device.driver},

@@ -165,6 +165,8 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
         .traits = traits,
         .hasEmitters = !emitters.empty(),
         .hasSmoothNormals = !normals.empty(),
+        .closedFormApplies = traits.transmittance == shared::kTransmittanceIdentity && normals.empty() &&
+                             !table.lights.empty() && table.lights.size() <= kMostClosedFormLights,
         .lightCount = static_cast<std::uint32_t>(table.lights.size()),
         .emitterRoot = trees.emitterRoot,
         .emitterBounds = widenedBounds(geometry, emitters),

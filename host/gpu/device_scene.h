@@ -9,11 +9,17 @@
 
 namespace duolux {
 
+/// More emitting triangles than this are sampled.
+inline constexpr std::size_t kMostClosedFormLights = 16;
+
 /// A scene in device memory, in the records of shaders/shared.
 struct DeviceScene {
     TransportTraits traits;
     bool hasEmitters = false;  ///< some triangle emits; then there is a tree over the emitting ones
     bool hasSmoothNormals = false;
+    /// Direct light has a closed form: nothing can be between a surface and an emitter, normals are flat, and
+    /// the emitters are so few that a formula for each costs no more than sampling one.
+    bool closedFormApplies = false;
     std::uint32_t lightCount = 0;  ///< triangles that next-event estimation samples
     std::uint32_t emitterRoot = 0;
     Bounds emitterBounds{};  ///< of what emits, widened by more than rounding can move a hit

@@ -83,8 +83,10 @@ std::uint32_t chooseFewestTeams(const Device& device) {
 }
 
 std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene,
-                                       std::uint32_t workgroupSize, std::uint32_t teamSize) {
+                                       std::uint32_t workgroupSize, std::uint32_t teamSize, bool closedForm) {
     const TransportTraits& traits = deviceScene.traits;
+    std::uint32_t directLight = closedForm ? shared::kDirectLightClosedForm : shared::kDirectLightSampled;
+    if (deviceScene.lightCount == 0) directLight = shared::kDirectLightNone;
     // Fractions of a subgroup; measured on an 8-wide one, where 4 to 5 and 2 to 4 lanes are within noise of
     // each other.
     return {{shared::kSpecWorkgroupSize, workgroupSize},
@@ -100,7 +102,7 @@ std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Sce
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent
                                                                                  : shared::kSamplerSobol},
-            {shared::kSpecHasLights, deviceScene.lightCount > 0},
+            {shared::kSpecDirectLight, directLight},
             {shared::kSpecHasEmitters, deviceScene.hasEmitters},
             {shared::kSpecTeamSize, teamSize}};
 }
@@ -113,7 +115,7 @@ Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const 
 }  // namespace
 
 PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-                       std::span<const std::uint32_t> pixels, std::uint32_t maxSlots)
+                       std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm)
     : teamSize_(std::max(device.info().subgroupSize, 1u)),
       workgroupSize_(chooseWorkgroupSize(device, teamSize_)),
       fewestTeams_(chooseFewestTeams(device)),
@@ -136,7 +138,8 @@ PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, con
                                       {shared::kBindingPixels, &pixels_},
                                       {shared::kBindingResults, &results_},
                                       {shared::kBindingTeams, &teams_}}},
-              specialize(deviceScene, scene, workgroupSize_, teamSize_), sizeof(shared::DispatchParams)),
+              specialize(deviceScene, scene, workgroupSize_, teamSize_, closedForm),
+              sizeof(shared::DispatchParams)),
       commands_{CommandSlot(device), CommandSlot(device)} {}
 
 std::uint64_t PathKernel::deviceBytes() const {

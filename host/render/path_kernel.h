@@ -21,10 +21,10 @@ class PathKernel {
     /// (film.glsl clamps a sample at 2^56 quanta).
     static constexpr std::uint32_t kMaxSamples = 16;
 
-    /// `maxSlots`: of one dispatch. `scene` and `deviceScene` must belong together; deviceScene must outlive
-    /// this.
+    /// `maxSlots`: of one dispatch. `closedForm`: direct light is not sampled. `scene` and `deviceScene` must
+    /// belong together; deviceScene must outlive this.
     PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-               std::span<const std::uint32_t> pixels, std::uint32_t maxSlots);
+               std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm);
 
     std::uint32_t maxSlots() const { return maxSlots_; }
     std::uint64_t deviceBytes() const;

@@ -36,7 +36,9 @@ class Renderer {
         const std::uint32_t maxSlots = std::min<std::uint32_t>(
             static_cast<std::uint32_t>(pixels_.size()),
             control_.maxPixelsPerDispatch > 0 ? control_.maxPixelsPerDispatch : kMaxSlots);
-        PathKernel kernel(device_, deviceScene_, scene_, pixels_, maxSlots);
+        const bool closedForm = chooseClosedForm();
+        PathKernel kernel(device_, deviceScene_, scene_, pixels_, maxSlots, closedForm);
+        statistics_.directLightInClosedForm = closedForm;
         statistics_.pipelineSeconds = secondsSince(pipelineStart);
         statistics_.buildSeconds = deviceScene_.buildSeconds;
         statistics_.uploadSeconds = deviceScene_.uploadSeconds;
@@ -56,6 +58,17 @@ class Renderer {
 
   private:
     static constexpr std::uint32_t kMaxSlots = 1u << 18;
+
+    bool chooseClosedForm() const {
+        const bool applies = deviceScene_.closedFormApplies;
+        if (control_.directLight == DirectLight::kClosedForm && !applies) {
+            throw UsageError(fmt::format(
+                "{}: direct light has no closed form here; it needs surfaces that hide nothing (`local`, "
+                "`shadowless`), flat normals, and from 1 to {} emitting triangles",
+                scene_.source.string(), kMostClosedFormLights));
+        }
+        return applies && control_.directLight != DirectLight::kSampled;
+    }
 
     void trace(PathKernel& kernel) {
         const std::uint32_t maxSamples =

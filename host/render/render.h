@@ -18,7 +18,15 @@ struct RenderProgress {
     double seconds = 0.0;                             ///< since the first dispatch
 };
 
+/// How light from emitters to a surface is found.
+enum class DirectLight : std::uint8_t {
+    kAuto,       ///< in closed form where DeviceScene::closedFormApplies, sampled elsewhere
+    kSampled,    ///< next-event estimation with multiple importance sampling
+    kClosedForm  ///< Lambert's polygon formula
+};
+
 struct RenderControl {
+    DirectLight directLight = DirectLight::kAuto;
     /// Called after every dispatch from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
     /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the
@@ -49,7 +57,8 @@ struct RenderStatistics {
     /// before it.
     double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0, meanRadiance = 0.0;
     std::uint32_t effectiveBounces =
-        0;                 ///< scattering events that can contribute: at most the scene's `bounces`
+        0;  ///< scattering events that can contribute: at most the scene's `bounces`
+    bool directLightInClosedForm = false;
     bool stopped = false;  ///< ended before all samples were taken
 
     bool limitedByBounces = false;  ///< more scattering events than `bounces` could contribute
@@ -63,8 +72,9 @@ struct RenderOutput {
     RenderStatistics statistics;
 };
 
-/// Path-traces the scene. Same scene, settings, seed and device give the same bits.
-/// Throws MachineError naming the stage and the driver if the device fails.
+/// Path-traces the scene. Throws UsageError if the direct light is asked for in closed form where there is
+/// none. Same scene, settings, seed and device give the same bits. Throws MachineError naming the stage and
+/// the driver if the device fails.
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
 
 }  // namespace duolux

@@ -17,7 +17,7 @@ layout(constant_id = 1) const uint kLeaveTraversal = 4u;
 layout(constant_id = 2) const uint kLeaveNodes = 3u;
 layout(constant_id = 10) const bool kSmoothNormals = true;
 layout(constant_id = 11) const uint kSampler = 0u;
-layout(constant_id = 12) const bool kHasLights = true;
+layout(constant_id = 12) const uint kDirectLight = 1u;
 layout(constant_id = 13) const bool kHasEmitters = true;
 layout(constant_id = 14) const uint kTeamSize = 8u;
 
@@ -35,6 +35,7 @@ layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; }
 #include "shaders/lib/camera.glsl"
 #include "shaders/lib/lights.glsl"
 #include "shaders/lib/normals.glsl"
+#include "shaders/lib/polygon_light.glsl"
 #include "shaders/lib/sampler.glsl"
 #include "shaders/lib/slot_sums.glsl"
 #include "shaders/lib/transport.glsl"
@@ -153,6 +154,24 @@ void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex,
     }
 }
 
+// Light from all emitters on a diffuse vertex, nothing being in between.
+void gatherClosedForm(inout Gathered gathered, Vertex vertex, uint scatterings) {
+    Light total = Light(vec3(0.0), vec3(0.0));
+    for (uint i = 0u; i < params.lightCount; i++) {
+        LightTriangle light = fetchLight(i);
+        vec3 a = light.v0 - vertex.position;
+        vec3 b = light.v1 - vertex.position;
+        vec3 c = light.v2 - vertex.position;
+        bool front = dot(cross(light.v1 - light.v0, light.v2 - light.v0), a) < 0.0;
+        Light emission = materialEmission(fetchMaterial(light.material), front);
+        float solidAngle = projectedSolidAngle(a, b, c, vertex.shadingNormal);
+        total.invisible += emission.invisible * solidAngle;
+        total.visible += emission.visible * solidAngle;
+    }
+    LightMatrix importance = lightScale(vertex.importance, vertex.bsdf.diffuse * (1.0 / kPi));
+    gather(gathered, lightApply(importance, total), scatterings);
+}
+
 // The path goes on from the chosen vertex of the segment, or ends.
 void endSegment(inout Path path, inout Vertex vertex, uint pixel, uint sampleIndex) {
     float weightSum = vertex.weightSum;
@@ -226,6 +245,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
 
     float pdfOfLight = pdfAreaToSolidAngle(material.lightPdfArea, ray.t * ray.t, cosine);
     float misWeight = path.scatterings > 0u ? balanceHeuristic(path.bsdfPdf, pdfOfLight) : 1.0;
+    if (kDirectLight == kDirectLightClosedForm) misWeight = path.scatterings > 0u ? 0.0 : 1.0;
     Light collected = lightApply(w, materialEmission(material, front));
     gather(gathered, Light(collected.invisible * misWeight, collected.visible * misWeight), path.scatterings);
 
@@ -245,7 +265,8 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
         here.position = pointOnTriangle(tri, ray.barycentric) + facing * pointError(tri);
         here.weight = weight;
         here.weightSum = vertex.weightSum + weight;
-        if (kHasLights) {
+        if (kDirectLight == kDirectLightClosedForm) gatherClosedForm(gathered, here, path.scatterings + 1u);
+        if (kDirectLight == kDirectLightSampled) {
             uvec2 u = sampleWords(kSampler, pixel, sampleIndex,
                                   sampleDimension(path.scatterings, path.crossings, kDimensionLight), params.seed);
             connectToLight(shadow, gathered, here, -path.direction, u, path.scatterings + 1u);
@@ -328,7 +349,9 @@ void main() {
                         emissionOnly = onlyEmissionLeft(path);
                     }
                 }
-                if (emissionOnly && !kHasEmitters) path.ended = true;
+                bool emissionCounts =
+                    kHasEmitters && (kDirectLight != kDirectLightClosedForm || path.scatterings == 0u);
+                if (emissionOnly && !emissionCounts) path.ended = true;
                 // Emitters along a ray that nothing else can stop are found in their own small tree.
                 bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
                 if (path.ended && !shadow.pending) {

@@ -11,6 +11,23 @@
 
 uvec4 fetchLightTexel(uint index);
 
+// An emitting triangle.
+struct LightTriangle {
+    vec3 v0;
+    vec3 v1;
+    vec3 v2;
+    uint material;
+    float positionError;
+};
+
+LightTriangle fetchLight(uint index) {
+    uvec4 t0 = fetchLightTexel(index * kLightTexels);
+    uvec4 t1 = fetchLightTexel(index * kLightTexels + 1u);
+    uvec4 t2 = fetchLightTexel(index * kLightTexels + 2u);
+    return LightTriangle(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t0.w,
+                         uintBitsToFloat(t1.w));
+}
+
 struct LightSample {
     vec3 position;
     vec3 normal;          // unit, of the front
@@ -32,12 +49,10 @@ LightSample sampleLight(uint lightCount, uvec2 u) {
     float remapped = keep ? rest / threshold : (rest - threshold) / (1.0 - threshold);
     vec2 b = uniformTriangle(vec2(min(remapped, 0.99999994), uniformFloat(u.y)));
 
-    uvec4 t0 = fetchLightTexel(index * kLightTexels);
-    uvec4 t1 = fetchLightTexel(index * kLightTexels + 1u);
-    uvec4 t2 = fetchLightTexel(index * kLightTexels + 2u);
-    Triangle tri = Triangle(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), 0u, 0u);
-    vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
-    return LightSample(pointOnTriangle(tri, b), normal, t0.w, uintBitsToFloat(t1.w));
+    LightTriangle light = fetchLight(index);
+    vec3 normal = normalize(cross(light.v1 - light.v0, light.v2 - light.v0));
+    vec3 position = light.v0 * (1.0 - b.x - b.y) + light.v1 * b.x + light.v2 * b.y;
+    return LightSample(position, normal, light.material, light.positionError);
 }
 
 // Density per steradian, at a point `distance` away, of picking a point with density pdfArea per unit area.

@@ -30,12 +30,17 @@ DUOLUX_CONST uint kSpecVisibleCrosses = 8u;     // some T has m10 or m11
 DUOLUX_CONST uint kSpecOneReflectance = 9u;     // all materials share PathParams.opaque and .transparent
 DUOLUX_CONST uint kSpecSmoothNormals = 10u;
 DUOLUX_CONST uint kSpecSampler = 11u;           // one of the kSampler... below
-DUOLUX_CONST uint kSpecHasLights = 12u;         // there is an emitter that next-event estimation can sample
+DUOLUX_CONST uint kSpecDirectLight = 12u;       // one of the kDirectLight... below
 DUOLUX_CONST uint kSpecHasEmitters = 13u;       // something emits
 DUOLUX_CONST uint kSpecTeamSize = 14u;          // lanes that share a range of slots; divides the workgroup's size
 
 DUOLUX_CONST uint kSamplerSobol = 0u;       // Owen-scrambled Sobol points
 DUOLUX_CONST uint kSamplerIndependent = 1u;
+
+// How light from emitters to a vertex is found.
+DUOLUX_CONST uint kDirectLightNone = 0u;        // there is no emitter
+DUOLUX_CONST uint kDirectLightSampled = 1u;     // by next-event estimation and multiple importance sampling
+DUOLUX_CONST uint kDirectLightClosedForm = 2u;  // Lambert's formula for each emitter; where nothing can be in between
 
 // What a segment between two points does to light, scene-wide.
 DUOLUX_CONST uint kTransmittanceZero = 0u;      // every T is 0: any surface hides what is behind it

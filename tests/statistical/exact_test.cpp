@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "host/base/error.h"
 #include "tests/statistical/renders.h"
+#include "tests/support/cornell.h"
+#include "tests/support/device.h"
 #include "tests/support/exact_case.h"
 
 // The kernels against closed forms. What each family of cases catches is told where it is built.
@@ -13,8 +16,64 @@ class Exact : public testing::TestWithParam<ExactCase> {};
 
 TEST_P(Exact, MatchesClosedForm) {
     const ExactCase& exact = GetParam();
-    expectAgreement(exact.name, renderSeeds(exact.scene, 128, 4), exact.expected,
+    const Renders renders = renderSeeds(exact.scene, 128, 4);
+    expectAgreement(exact.name, renders, exact.expected, {.relative = exact.relative});
+    if (!renders.directLightInClosedForm) return;
+    RenderControl sampled;
+    sampled.directLight = DirectLight::kSampled;
+    expectAgreement(exact.name + "Sampled", renderSeeds(exact.scene, 128, 4, 1, sampled), exact.expected,
                     {.relative = exact.relative});
+}
+
+/// Mean over the pixels of the variance between seeds, of all channels of the visible component.
+double varianceBetween(const Renders& renders) {
+    double total = 0.0;
+    const std::size_t pixels = renders.images.front().visible.size();
+    for (std::size_t i = 0; i < pixels; ++i) {
+        glm::dvec3 sum(0.0);
+        glm::dvec3 squares(0.0);
+        for (const RadianceImage& image : renders.images) {
+            const glm::dvec3 v(image.visible[i]);
+            sum += v;
+            squares += v * v;
+        }
+        const auto n = static_cast<double>(renders.images.size());
+        const glm::dvec3 variance = (squares - sum * sum / n) / (n - 1.0);
+        total += variance.x + variance.y + variance.z;
+    }
+    return total / static_cast<double>(pixels);
+}
+
+TEST(ClosedForm, LocalHasNoNoiseWithinASurface) {
+    // A camera that sees so little that every sample meets about the same point.
+    Scene scene = cornellBox();
+    scene.reflectance = *presetReflectance("local");
+    scene.camera.vfov = 1e-3f;
+    scene.camera.target = {100.0f, 200.0f, 559.2f};  // the back wall
+    scene.render.width = scene.render.height = 8;
+    RenderControl sampled;
+    sampled.directLight = DirectLight::kSampled;
+    const Renders exact = renderSeeds(scene, 1, 8);
+    EXPECT_TRUE(exact.directLightInClosedForm);
+    const double noise = varianceBetween(renderSeeds(scene, 1, 8, 1, sampled));
+    EXPECT_GT(noise, 1e-6);
+    EXPECT_LT(varianceBetween(exact), 1e-6 * noise);
+}
+
+TEST(ClosedForm, AppliesWhereNothingCanBeInBetweenAndEmittersAreFew) {
+    Scene scene = cornellBox();
+    scene.render.width = scene.render.height = 4;
+    const auto applies = [&](std::string_view preset) {
+        scene.reflectance = *presetReflectance(preset);
+        return renderSeeds(scene, 1, 1).directLightInClosedForm;
+    };
+    EXPECT_TRUE(applies("local"));
+    EXPECT_TRUE(applies("shadowless"));
+    EXPECT_FALSE(applies("global"));
+    EXPECT_FALSE(applies("one-bounce"));
+    RenderControl control;
+    control.directLight = DirectLight::kClosedForm;
+    EXPECT_THROW(render(device(), scene, control), UsageError);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Exact, testing::ValuesIn(exactCases()),

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "host/render/render.h"
 #include "tests/reference/estimates_image.h"
 #include "tests/support/device.h"
 
@@ -23,16 +22,18 @@ void writeAll(const std::filesystem::path& stem, const RadianceImage& image) {
 
 }  // namespace
 
-Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed) {
+Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed,
+                    const RenderControl& control) {
     Renders renders;
     scene.render.spp = spp;
     for (std::uint32_t i = 0; i < seeds; ++i) {
         scene.render.seed = firstSeed + i;
-        const RenderOutput output = render(device(), scene);
+        const RenderOutput output = render(device(), scene, control);
         EXPECT_EQ(output.statistics.nonFiniteSamples, 0u);
         EXPECT_FALSE(output.film.overflowed());
         EXPECT_EQ(output.film.totalSamples(), std::uint64_t{scene.render.width} * scene.render.height * spp);
         renders.images.push_back(output.film.resolve());
+        renders.directLightInClosedForm = output.statistics.directLightInClosedForm;
         renders.quantum = static_cast<double>(output.film.quantum());
     }
     return renders;

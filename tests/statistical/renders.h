@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/film/image.h"
+#include "host/render/render.h"
 #include "host/scene/scene.h"
 #include "tests/support/agreement.h"
 
@@ -13,11 +14,13 @@ namespace duolux::test {
 struct Renders {
     std::vector<RadianceImage> images;
     double quantum = 0.0;  ///< of the film
+    bool directLightInClosedForm = false;
 };
 
 /// Renders on the tests' device with seeds firstSeed, firstSeed + 1, ...; fails the running test if a sample
 /// was not finite or a sum overflowed.
-Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed = 1);
+Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed = 1,
+                    const RenderControl& control = {});
 
 /// Fails the running test if the renders disagree with the expectation, and then leaves pictures of both and
 /// of the Welch statistic in the build directory, under artefacts/<name>.

@@ -80,7 +80,7 @@ ExactCase floorImage() {
     scene.render.bounces = 1;
 
     // Midpoint rule over each pixel's footprint.
-    constexpr int kSteps = 6;
+    constexpr int kSteps = 24;
     const reference::Pinhole pinhole(scene.camera, kSize, kSize);
     reference::Estimates expected{kSize, kSize, 0, {}};
     for (std::uint32_t y = 0; y < kSize; ++y) {

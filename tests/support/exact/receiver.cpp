@@ -22,8 +22,8 @@ ReceiverScene::ReceiverScene(const Receiver& receiver, glm::vec3 eye) : receiver
     builder_.quad(-u - v, u - v, u + v, v - u, index);
     Scene& scene = builder_.scene;
     scene.reflectance = preset("local");
-    // Seen at a grazing angle the footprint is 0.001 across, and centred on the origin.
-    scene.camera = {4.0f * glm::normalize(eye), glm::vec3(0.0f), {0, 1, 0}, 0.002f};
+    // Seen at a grazing angle the footprint is 0.0001 across, and centred on the origin.
+    scene.camera = {4.0f * glm::normalize(eye), glm::vec3(0.0f), {0, 1, 0}, 0.0002f};
     scene.render.width = scene.render.height = 16;
 }
 
