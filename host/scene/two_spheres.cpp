@@ -142,20 +142,24 @@ constexpr double kRoom = 100.0;  // length of the room's sides
 void writeRoom(ObjWriter& obj, const Division& division) {
     const glm::dvec3 x(kRoom, 0, 0), y(0, kRoom, 0), z(0, 0, kRoom);
     const std::uint32_t n = division.wallCells;
-    writeWall(obj, "floor", {"white", glm::dvec3(0), z, x}, division.floorCellsZ, division.floorCellsX);
-    writeWall(obj, "ceiling", {"white", y, x, z}, n, n);
-    writeWall(obj, "back", {"white", glm::dvec3(0), x, y}, n, n);
-    writeWall(obj, "left", {"red", glm::dvec3(0), y, z}, n, n);
-    writeWall(obj, "right", {"green", x, z, y}, n, n);
+    writeWall(obj, "floor", {"floor", glm::dvec3(0), z, x}, division.floorCellsZ, division.floorCellsX);
+    writeWall(obj, "ceiling", {"ceiling", y, x, z}, n, n);
+    writeWall(obj, "back", {"back", glm::dvec3(0), x, y}, n, n);
+    writeWall(obj, "left", {"left", glm::dvec3(0), y, z}, n, n);
+    writeWall(obj, "right", {"right", x, z, y}, n, n);
     writeWall(obj, "luminaire", {"luminaire", {35, 99.5, 35}, {30, 0, 0}, {0, 0, 30}}, 1, 1);
 }
 
 constexpr const char* kMtl = R"(# Two spheres under a rectangular luminaire.
-newmtl white
+newmtl floor
 Kd 0.75 0.75 0.75
-newmtl red
+newmtl ceiling
+Kd 0.75 0.75 0.75
+newmtl back
+Kd 0.75 0.75 0.75
+newmtl left
 Kd 0.63 0.065 0.05
-newmtl green
+newmtl right
 Kd 0.14 0.45 0.091
 newmtl left_sphere
 Kd 0.8 0.62 0.3
@@ -180,15 +184,6 @@ constexpr const char* kJson = R"({
 }
 )";
 
-void writeText(const fs::path& path, const std::string& text) {
-    writeFileAtomically(path, [&](const fs::path& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
-        out.close();
-        if (!out) throw MachineError(fmt::format("{}: cannot write", path.string()));
-    });
-}
-
 }  // namespace
 
 std::size_t writeTwoSpheres(const fs::path& folder, std::size_t triangles) {
@@ -206,9 +201,9 @@ std::size_t writeTwoSpheres(const fs::path& folder, std::size_t triangles) {
     fs::create_directories(folder, ec);
     if (ec)
         throw MachineError(fmt::format("{}: cannot create the folder: {}", folder.string(), ec.message()));
-    writeText(folder / "two_spheres.obj", obj.text());
-    writeText(folder / "two_spheres.mtl", kMtl);
-    writeText(folder / "two_spheres.json", kJson);
+    writeTextFile(folder / "two_spheres.obj", obj.text());
+    writeTextFile(folder / "two_spheres.mtl", kMtl);
+    writeTextFile(folder / "two_spheres.json", kJson);
     return obj.triangles();
 }
 
