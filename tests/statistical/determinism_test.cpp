@@ -98,7 +98,8 @@ TEST(Determinism, PathsOfManyCrossingsAreWhole) {
     EXPECT_EQ(reference.film.totalSamples(), 10u * 10u * 9u);
     for (const RenderControl& control : {RenderControl{}, parts}) {
         const RenderOutput whole = render(device(), panes, control);
-        if (device().info().driver.find("llvmpipe") != std::string::npos) {
+        if (device().info().driver.find("llvmpipe Mesa 22.") !=
+            std::string::npos) {  // later ones have no such limit
             EXPECT_GT(whole.statistics.dispatchesCutShort, 0u)
                 << "the case no longer reaches lavapipe's limit";
         }
