@@ -12,12 +12,12 @@
 
 namespace duolux::test {
 
-ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
-                        std::optional<ProgramSignal> signal) {
+ProgramResult runProgram(const std::string& program, const std::filesystem::path& folder,
+                         std::vector<std::string> arguments, std::optional<ProgramSignal> signal) {
     const TemporaryFolder streams;
     const std::string out = streams.path() / "out";
     const std::string err = streams.path() / "err";
-    arguments.insert(arguments.begin(), DUOLUX_EXECUTABLE);
+    arguments.insert(arguments.begin(), program);
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork");
     if (child == 0) {
@@ -41,6 +41,11 @@ ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::st
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentsOf(out),
             contentsOf(err)};
+}
+
+ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                        std::optional<ProgramSignal> signal) {
+    return runProgram(DUOLUX_EXECUTABLE, folder, std::move(arguments), signal);
 }
 
 std::string contentsOf(const std::filesystem::path& file) {
