@@ -265,7 +265,7 @@ void addRenderCommand(CLI::App& app) {
         ->add_option(
             "--direct-light", options->directLight,
             "Light from emitters: sampled; in closed form, without noise, where nothing can be in between "
-            "(local, shadowless); or auto, the second where it applies")
+            "(local, shadowless); or auto (the default): in closed form for local")
         ->type_name("NAME")
         ->check(CLI::IsMember({"auto", "sampled", "closed-form"}));
     command

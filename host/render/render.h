@@ -20,9 +20,9 @@ struct RenderProgress {
 
 /// How light from emitters to a surface is found.
 enum class DirectLight : std::uint8_t {
-    kAuto,       ///< in closed form where DeviceScene::closedFormApplies, sampled elsewhere
+    kAuto,       ///< in closed form where that applies and pays (`local`), sampled elsewhere
     kSampled,    ///< next-event estimation with multiple importance sampling
-    kClosedForm  ///< Lambert's polygon formula
+    kClosedForm  ///< Lambert's polygon formula; only where DeviceScene::closedFormApplies
 };
 
 struct RenderControl {

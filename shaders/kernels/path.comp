@@ -53,6 +53,9 @@ LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
 
 const float kInfinity = 1e30;
 
+// Whether anything can be gathered after a scattering event. (Nothing in between means T without a second column.)
+const bool kPathsGoOn = kDirectLight != kDirectLightClosedForm || kInvisibleScatters;
+
 // A path under way: the segment it is on.
 struct Path {
     LightMatrix importance;  // W up to here on the segment, the transmittances of the surfaces crossed included
@@ -177,7 +180,7 @@ void endSegment(inout Path path, inout Vertex vertex, uint pixel, uint sampleInd
     float weightSum = vertex.weightSum;
     vertex.weightSum = 0.0;
     path.ended = true;
-    if (!(weightSum > 0.0)) return;
+    if (!kPathsGoOn || !(weightSum > 0.0)) return;
     // Russian roulette on the importance that all vertices of the segment would carry, in units of the camera's. Where
     // that grows (crossing surfaces that also scatter) every path survives and carries the growth.
     float survival = path.scatterings >= 2u ? (weightSum < 1.0 ? min(weightSum, 0.95) : 1.0) : 1.0;
@@ -272,7 +275,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
             connectToLight(shadow, gathered, here, -path.direction, u, path.scatterings + 1u);
         }
         bool chosen = true;
-        if (kTransmittance != kTransmittanceZero) {
+        if (kTransmittance != kTransmittanceZero && kPathsGoOn) {
             uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
             chosen = sampleChoice(pixel, sampleIndex, choice, params.seed).x * here.weightSum < weight;
         }

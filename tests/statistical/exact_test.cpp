@@ -18,11 +18,17 @@ TEST_P(Exact, MatchesClosedForm) {
     const ExactCase& exact = GetParam();
     const Renders renders = renderSeeds(exact.scene, 128, 4);
     expectAgreement(exact.name, renders, exact.expected, {.relative = exact.relative});
-    if (!renders.directLightInClosedForm) return;
-    RenderControl sampled;
-    sampled.directLight = DirectLight::kSampled;
-    expectAgreement(exact.name + "Sampled", renderSeeds(exact.scene, 128, 4, 1, sampled), exact.expected,
-                    {.relative = exact.relative});
+    // The other estimator of direct light, where there is one.
+    RenderControl other;
+    other.directLight = renders.directLightInClosedForm ? DirectLight::kSampled : DirectLight::kClosedForm;
+    Renders others;
+    try {
+        others = renderSeeds(exact.scene, 128, 4, 1, other);
+    } catch (const UsageError&) {
+        return;
+    }
+    EXPECT_NE(others.directLightInClosedForm, renders.directLightInClosedForm);
+    expectAgreement(exact.name + "OtherDirectLight", others, exact.expected, {.relative = exact.relative});
 }
 
 /// Mean over the pixels of the variance between seeds, of all channels of the visible component.
@@ -60,7 +66,7 @@ TEST(ClosedForm, LocalHasNoNoiseWithinASurface) {
     EXPECT_LT(varianceBetween(exact), 1e-6 * noise);
 }
 
-TEST(ClosedForm, AppliesWhereNothingCanBeInBetweenAndEmittersAreFew) {
+TEST(ClosedForm, IsChosenWhereItAppliesAndPays) {
     Scene scene = cornellBox();
     scene.render.width = scene.render.height = 4;
     const auto applies = [&](std::string_view preset) {
@@ -68,11 +74,14 @@ TEST(ClosedForm, AppliesWhereNothingCanBeInBetweenAndEmittersAreFew) {
         return renderSeeds(scene, 1, 1).directLightInClosedForm;
     };
     EXPECT_TRUE(applies("local"));
-    EXPECT_TRUE(applies("shadowless"));
+    EXPECT_FALSE(applies("shadowless"));  // it would apply, but not pay
     EXPECT_FALSE(applies("global"));
     EXPECT_FALSE(applies("one-bounce"));
     RenderControl control;
     control.directLight = DirectLight::kClosedForm;
+    scene.reflectance = *presetReflectance("shadowless");
+    EXPECT_TRUE(render(device(), scene, control).statistics.directLightInClosedForm);
+    scene.reflectance = *presetReflectance("one-bounce");
     EXPECT_THROW(render(device(), scene, control), UsageError);
 }
 
