@@ -1,6 +1,7 @@
 #include "host/gl/vertices.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <unordered_map>
 
@@ -18,8 +19,8 @@ struct CornerHash {
     std::size_t operator()(const Corner& c) const {
         std::size_t h = c.position;
         for (int i = 0; i < 3; ++i)
-            h = h * 0x9e3779b97f4a7c15ull + std::hash<float>()(c.normal[i]);
-        return h;
+            h = (h ^ std::bit_cast<std::uint32_t>(c.normal[i])) * 0x9e3779b97f4a7c15ull;
+        return h ^ h >> 32;
     }
 };
 
@@ -35,6 +36,7 @@ GlMesh makeGlMesh(const Scene& scene) {
 
     GlMesh mesh;
     std::unordered_map<Corner, std::uint32_t, CornerHash> known;
+    known.reserve(3 * geometry.triangles.size());
     for (const std::uint32_t t : order) {
         const glm::uvec3 v = geometry.triangles[t];
         const glm::vec3 edge1 = geometry.positions[v.y] - geometry.positions[v.x];

@@ -93,31 +93,42 @@ Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::Buff
     }
 }
 
+void Buffer::write(std::span<const std::byte> bytes) const {
+    std::memcpy(mapped_, bytes.data(), bytes.size());
+    if (!coherent_) device_->flushMappedMemoryRanges(vk::MappedMemoryRange(*memory_, 0, VK_WHOLE_SIZE));
+}
+
 Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                       std::string_view name) {
     Buffer buffer(device, use, bytes.size(), vk::BufferUsageFlagBits::eTransferDst, Memory::kDevice, name);
     if (bytes.empty()) return buffer;
-    const auto write = [&](const Buffer& target) {
-        std::memcpy(target.mapped_, bytes.data(), bytes.size());
-        if (!target.coherent_) {
-            target.device_->flushMappedMemoryRanges(vk::MappedMemoryRange(*target.memory_, 0, VK_WHOLE_SIZE));
-        }
-    };
     if (buffer.mapped_ != nullptr) {
-        write(buffer);
-        return buffer;
+        buffer.write(bytes);
+    } else {
+        buffer.writeStaged(device, bytes, name);
     }
+    return buffer;
+}
+
+Buffer Buffer::uploadStaged(const Device& device, BufferUse use, std::span<const std::byte> bytes,
+                            std::string_view name) {
+    Buffer buffer(device, use, bytes.size(), vk::BufferUsageFlagBits::eTransferDst, Memory::kDevice, name);
+    if (!bytes.empty()) buffer.writeStaged(device, bytes, name);
+    return buffer;
+}
+
+void Buffer::writeStaged(const Device& device, std::span<const std::byte> bytes,
+                         std::string_view name) const {
     const Buffer staging(device, BufferUse::kStorage, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc,
                          Memory::kStaging, name);
-    write(staging);
+    staging.write(bytes);
     runOnce(device, fmt::format("uploading {}", name), [&](const vk::raii::CommandBuffer& commands) {
-        commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy(0, 0, bytes.size()));
+        commands.copyBuffer(staging.handle(), handle(), vk::BufferCopy(0, 0, bytes.size()));
         // A fence makes what was copied available; this makes it visible to all that will read it.
         commands.pipelineBarrier(
             vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eAllCommands, {},
             vk::MemoryBarrier(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eMemoryRead), {}, {});
     });
-    return buffer;
 }
 
 Buffer Buffer::device(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,

@@ -22,6 +22,11 @@ class Buffer {
     static Buffer upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                          std::string_view name);
 
+    /// Through a staging buffer in any case, so that tests reach what upload() does where memory is not
+    /// visible.
+    static Buffer uploadStaged(const Device& device, BufferUse use, std::span<const std::byte> bytes,
+                               std::string_view name);
+
     template <typename T>
     static Buffer upload(const Device& device, BufferUse use, std::span<const T> items,
                          std::string_view name) {
@@ -50,6 +55,9 @@ class Buffer {
     enum class Memory : std::uint8_t { kDevice, kStaging, kReadback };
     Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra, Memory memory,
            std::string_view name);
+
+    void write(std::span<const std::byte> bytes) const;
+    void writeStaged(const Device& device, std::span<const std::byte> bytes, std::string_view name) const;
 
     const vk::raii::Device* device_;
     BufferUse use_;

@@ -65,6 +65,17 @@ std::uint32_t reversed(std::uint32_t x) {
     return r;
 }
 
+TEST(Upload, ThroughAStagingBufferGivesTheSame) {
+    std::vector<Vector> inputs;
+    for (std::uint32_t i = 0; i < 5000; ++i)
+        inputs.push_back({i, ~i, i * i, i << 7});
+    const Buffer staged =
+        Buffer::uploadStaged(device(), BufferUse::kStorage, std::as_bytes(std::span(inputs)), "inputs");
+    const auto count = static_cast<std::uint32_t>(inputs.size());
+    EXPECT_EQ(runKernel<Vector>(spirv::kSamplerTest, {{0, &staged}}, 1, Push{count, 0}, count),
+              evaluate(inputs, 0));
+}
+
 TEST(Sobol, SecondDimensionMatchesTheDirectionNumbers) {
     // Primitive polynomial x + 1: v_1 = 2^31, v_(i+1) = v_i ^ (v_i >> 1) (Joe and Kuo, 2008).
     std::array<std::uint32_t, 32> direction{};
