@@ -84,7 +84,11 @@ TEST_P(Cornell, MatchesReference) {
     settings.bounces = cornell.bounces;
     settings.samples = 2048;
     const reference::Estimates expected = reference::trace(cornell.scene, settings);
-    expectAgreement(cornell.name, renderSeeds(cornell.scene, 128, 16), expected);
+    const Renders renders = renderSeeds(cornell.scene, 128, 16);
+    expectAgreement(cornell.name, renders, expected);
+    if (const auto others = renderOtherEstimator(cornell.scene, 128, 16, renders)) {
+        expectAgreement(cornell.name + std::string("OtherEstimator"), *others, expected);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Cornell, testing::ValuesIn(cornellCases()),

@@ -18,17 +18,9 @@ TEST_P(Exact, MatchesClosedForm) {
     const ExactCase& exact = GetParam();
     const Renders renders = renderSeeds(exact.scene, 128, 4);
     expectAgreement(exact.name, renders, exact.expected, {.relative = exact.relative});
-    // The other estimator of direct light, where there is one.
-    RenderControl other;
-    other.directLight = renders.directLightInClosedForm ? DirectLight::kSampled : DirectLight::kClosedForm;
-    Renders others;
-    try {
-        others = renderSeeds(exact.scene, 128, 4, 1, other);
-    } catch (const UsageError&) {
-        return;
+    if (const auto others = renderOtherEstimator(exact.scene, 128, 4, renders)) {
+        expectAgreement(exact.name + "OtherEstimator", *others, exact.expected, {.relative = exact.relative});
     }
-    EXPECT_NE(others.directLightInClosedForm, renders.directLightInClosedForm);
-    expectAgreement(exact.name + "OtherDirectLight", others, exact.expected, {.relative = exact.relative});
 }
 
 /// Mean over the pixels of the variance between seeds, of all channels of the visible component.

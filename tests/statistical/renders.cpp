@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "host/base/error.h"
 #include "tests/reference/estimates_image.h"
 #include "tests/support/device.h"
 
@@ -37,6 +38,19 @@ Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::ui
         renders.quantum = static_cast<double>(output.film.quantum());
     }
     return renders;
+}
+
+std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t spp, std::uint32_t seeds,
+                                            const Renders& renders) {
+    RenderControl other;
+    other.directLight = renders.directLightInClosedForm ? DirectLight::kSampled : DirectLight::kClosedForm;
+    try {
+        Renders others = renderSeeds(scene, spp, seeds, 1, other);
+        EXPECT_NE(others.directLightInClosedForm, renders.directLightInClosedForm);
+        return others;
+    } catch (const UsageError&) {
+        return std::nullopt;
+    }
 }
 
 void expectAgreement(const std::string& name, const Renders& renders, const reference::Estimates& expected,

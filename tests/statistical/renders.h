@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct Renders {
 /// was not finite or a sum overflowed.
 Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed = 1,
                     const RenderControl& control = {});
+
+/// The same with direct light found in the other way, sampled or in closed form; nothing where it has no
+/// closed form.
+std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t spp, std::uint32_t seeds,
+                                            const Renders& renders);
 
 /// Fails the running test if the renders disagree with the expectation, and then leaves pictures of both and
 /// of the Welch statistic in the build directory, under artefacts/<name>.
