@@ -42,21 +42,23 @@ Limit parseLimit(const std::string& text) {
     if (equals == std::string::npos) fail("expected METRIC=VALUE, such as eps_mean=0.004");
     Limit limit{text.substr(0, equals), 0.0};
     std::vector<std::string> known;
-    for (const auto& [name, value] : Comparison{}.metrics())
-        known.emplace_back(name);
+    for (const auto& [name, value] : Comparison{}.metrics()) {
+        if (name != "psnr") known.emplace_back(name);
+    }
+    if (limit.metric == "psnr") fail("a higher psnr is better; expected a metric that grows with the error");
     if (std::find(known.begin(), known.end(), limit.metric) == known.end()) {
         fail(fmt::format("unknown metric; {}", suggestName(limit.metric, known)));
     }
-    if (limit.metric == "psnr") fail("a higher psnr is better; expected a metric that grows with the error");
-    if (!CLI::detail::lexical_cast(text.substr(equals + 1), limit.value) || !std::isfinite(limit.value)) {
-        fail("expected a number after the =");
+    if (!CLI::detail::lexical_cast(text.substr(equals + 1), limit.value) || !(limit.value >= 0.0) ||
+        !std::isfinite(limit.value)) {
+        fail("expected a number >= 0 after the =");
     }
     return limit;
 }
 
 RadianceImage readSameSize(const std::string& path, const RadianceImage& first,
                            const std::string& firstPath) {
-    RadianceImage image = readImage(path);
+    RadianceImage image = readDisplayedImage(path);
     if (image.width != first.width || image.height != first.height) {
         throw InputError(
             path, "", fmt::format("is {} x {} pixels", image.width, image.height),
@@ -80,6 +82,7 @@ std::vector<bool> readMask(const Arguments& arguments, const RadianceImage& imag
 void print(const Comparison& c) {
     const auto percent = [](double x) { return 100.0 * x; };
     fmt::print("pixels compared           {}\n", c.pixels);
+    if (c.nonFinite > 0) fmt::print("pixels not finite         {}: no metric has a value\n", c.nonFinite);
     fmt::print("eps, mean                 {:.4f} %   (the paper's, of displayed values)\n",
                percent(c.epsMean));
     fmt::print("eps, maximum              {:.4f} %\n", percent(c.epsMax));
@@ -99,8 +102,10 @@ void printJson(const Arguments& arguments, const Comparison& c) {
     json["image"] = arguments.image;
     json["reference"] = arguments.reference;
     json["pixels"] = c.pixels;
+    json["non_finite"] = c.nonFinite;
     for (const auto& [name, value] : c.metrics()) {
-        // JSON has no infinity: equal images have no PSNR.
+        // JSON has neither infinity nor NaN: equal images have no PSNR, images with pixels that are not
+        // finite nothing.
         json[std::string(name)] =
             std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
     }
@@ -127,7 +132,7 @@ void run(const Arguments& arguments) {
         checkOutputs({{"--heatmap", arguments.heatMap}},
                      {arguments.image, arguments.reference, arguments.mask});
     }
-    const RadianceImage image = readImage(arguments.image);
+    const RadianceImage image = readDisplayedImage(arguments.image);
     const RadianceImage reference = readSameSize(arguments.reference, image, arguments.image);
     CompareOptions options;
     options.exposure = arguments.exposure;
@@ -157,7 +162,10 @@ void addCompareCommand(CLI::App& app) {
     command->add_option("IMAGE", arguments->image, "The image: .exr, .png or .pfm")->required();
     command->add_option("REFERENCE", arguments->reference, "What it should be, of the same size")->required();
     command->add_flag("--json", arguments->json, "Print JSON");
-    command->add_option("--mask", arguments->mask, "Compare only pixels that are white in this image")
+    command
+        ->add_option(
+            "--mask", arguments->mask,
+            "Compare only pixels of this image with a channel of at least half the light (sRGB code 188)")
         ->type_name("FILE");
     command->add_option("--heatmap", arguments->heatMap, "Write a picture of eps, from black (0) to white")
         ->type_name("FILE");

@@ -74,6 +74,8 @@ Comparison compare(const RadianceImage& image, const RadianceImage& reference,
     for (std::size_t i = 0; i < linear.size(); ++i) {
         if (!options.mask.empty() && !options.mask[i]) continue;
         ++result.pixels;
+        if (!glm::all(glm::equal(linear[i] * 0.0f + linearReference[i] * 0.0f, glm::vec3(0.0f))))
+            ++result.nonFinite;
         const glm::dvec3 shownDifference = glm::dvec3(shown[i]) - glm::dvec3(shownReference[i]);
         const double eps = epsOf(shownDifference);
         result.epsMean += eps;
@@ -90,6 +92,11 @@ Comparison compare(const RadianceImage& image, const RadianceImage& reference,
         result.flip += static_cast<double>(seen[i]);
     }
     assert(result.pixels > 0);
+    if (result.nonFinite > 0) {
+        constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+        const std::uint64_t pixels = result.pixels;
+        return {pixels, result.nonFinite, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
+    }
     const auto n = static_cast<double>(result.pixels);
     for (double* mean : {&result.epsMean, &result.epsAboveOneCode, &result.signedMean, &result.rmse,
                          &result.relativeMse, &result.flip, &shownSquares})

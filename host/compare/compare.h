@@ -27,7 +27,8 @@ struct CompareOptions {
 /// Differences of an image from a reference. The displayed images are those of CompareOptions; the others are
 /// linear and scene-referred, neither clamped nor exposed.
 struct Comparison {
-    std::uint64_t pixels = 0;  ///< that counted
+    std::uint64_t pixels = 0;     ///< that counted
+    std::uint64_t nonFinite = 0;  ///< of these, in either image; if there are any, every metric is NaN
     /// eps = sqrt((dr^2 + dg^2 + db^2) / 3) of a pixel of the displayed images (paper, section 3).
     double epsMean = 0.0, epsMax = 0.0;
     double epsAboveOneCode = 0.0;  ///< fraction of pixels with eps > 1/255

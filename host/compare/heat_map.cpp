@@ -19,6 +19,7 @@ constexpr std::array<glm::vec3, 6> kStops{{{0, 0, 0},
                                            {1, 1, 1}}};
 
 glm::vec3 colourOf(float t) {
+    if (!std::isfinite(t)) return {0.0f, 1.0f, 0.0f};
     const float scaled = std::clamp(t, 0.0f, 1.0f) * static_cast<float>(kStops.size() - 1);
     const std::size_t i = std::min(static_cast<std::size_t>(scaled), kStops.size() - 2);
     return glm::mix(kStops[i], kStops[i + 1], scaled - static_cast<float>(i));

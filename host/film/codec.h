@@ -16,6 +16,8 @@ std::string encodePng(const RadianceImage& image, const ImageOptions& options);
 std::string encodePfm(const RadianceImage& image, const ImageOptions& options);
 
 RadianceImage decodeExr(std::string_view bytes, const std::string& file);
+RadianceImage decodeDisplayedExr(std::string_view bytes,
+                                 const std::string& file);  ///< R, G, B as the visible component
 RadianceImage decodePng(std::string_view bytes, const std::string& file);
 RadianceImage decodePfm(std::string_view bytes, const std::string& file);
 

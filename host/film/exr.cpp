@@ -100,7 +100,9 @@ std::string encodeExr(const RadianceImage& image, const ImageOptions& options) {
     return memory.take();
 }
 
-RadianceImage decodeExr(std::string_view bytes, const std::string& file) {
+namespace {
+
+RadianceImage decode(std::string_view bytes, const std::string& file, bool displayedOnly) {
     static const bool kLimited = [] {
         Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
         return true;
@@ -110,8 +112,10 @@ RadianceImage decodeExr(std::string_view bytes, const std::string& file) {
         MemoryInput memory(bytes);
         Imf::InputFile input(memory);
         const Imf::ChannelList& channels = input.header().channels();
-        const bool both = hasChannels(channels, kInvisibleNames) && hasChannels(channels, kVisibleNames);
-        if (!both && !hasChannels(channels, kDisplayedNames)) {
+        const bool displayed = hasChannels(channels, kDisplayedNames);
+        const bool both = hasChannels(channels, kInvisibleNames) && hasChannels(channels, kVisibleNames) &&
+                          !(displayedOnly && displayed);
+        if (!both && !displayed) {
             throw InputError(file, "", "has no colour channels",
                              "expected R, G, B, or invisible.R/G/B and visible.R/G/B");
         }
@@ -133,6 +137,16 @@ RadianceImage decodeExr(std::string_view bytes, const std::string& file) {
     } catch (const std::exception& e) {
         throw InputError(file, "", std::string("is not a readable OpenEXR image: ") + e.what(), "");
     }
+}
+
+}  // namespace
+
+RadianceImage decodeExr(std::string_view bytes, const std::string& file) {
+    return decode(bytes, file, false);
+}
+
+RadianceImage decodeDisplayedExr(std::string_view bytes, const std::string& file) {
+    return decode(bytes, file, true);
 }
 
 }  // namespace duolux

@@ -102,4 +102,11 @@ RadianceImage readImage(const std::filesystem::path& path) {
     return format->decode(readFile(path), path.string());
 }
 
+RadianceImage readDisplayedImage(const std::filesystem::path& path) {
+    const Format* format = formatOf(path);
+    if (format != nullptr && format->decode == decodeExr)
+        return decodeDisplayedExr(readFile(path), path.string());
+    return readImage(path);
+}
+
 }  // namespace duolux

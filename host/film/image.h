@@ -35,4 +35,8 @@ void writeImage(const std::filesystem::path& path, const RadianceImage& image, c
 /// to linear). Throws InputError.
 RadianceImage readImage(const std::filesystem::path& path);
 
+/// The picture that a file shows, as the visible component: of an EXR its R G B, whatever row d made them of
+/// both components.
+RadianceImage readDisplayedImage(const std::filesystem::path& path);
+
 }  // namespace duolux

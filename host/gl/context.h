@@ -8,8 +8,8 @@
 namespace duolux {
 
 /// An OpenGL compatibility context without window system or surface, current on this thread while it lives:
-/// Mesa's surfaceless platform, or else the first EGL device that works. Throws MachineError naming the step
-/// that failed.
+/// of the first EGL device that is a GPU and works, or else of Mesa's surfaceless platform. Throws
+/// MachineError naming the step that failed.
 class GlContext {
   public:
     GlContext();

@@ -97,8 +97,8 @@ struct Target {
         if (withDepth) {
             glGenRenderbuffers(1, &depth);
             glBindRenderbuffer(GL_RENDERBUFFER, depth);
-            glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
-            glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+            glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH32F_STENCIL8, width, height);
+            glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth);
         }
         if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
             throw MachineError(fmt::format("OpenGL cannot draw to {} x {} pixels of floats", width, height));
@@ -261,6 +261,10 @@ void GlScene::drawPerFragment(std::span<const PointLight> lights, bool withEmiss
             glDeleteShader(shader);
         }
         glLinkProgram(objects_->program);
+        GLint linked = 0;
+        glGetProgramiv(objects_->program, GL_LINK_STATUS, &linked);
+        if (linked == 0)
+            throw MachineError("OpenGL cannot link the shaders: are 48 KiB too much for a uniform block?");
     }
     glUseProgram(objects_->program);
     const auto location = [&](const char* name) { return glGetUniformLocation(objects_->program, name); };
@@ -307,10 +311,16 @@ void GlScene::drawOnce(std::span<const PointLight> lights, Lighting lighting) {
             drawPerFragment(batch, first == 0);
         }
         first += batch.size();
+        // Of surfaces in one place only the first is drawn, as it was before.
+        glClear(GL_STENCIL_BUFFER_BIT);
+        glEnable(GL_STENCIL_TEST);
+        glStencilFunc(GL_EQUAL, 0, 1);
+        glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
         glDepthFunc(GL_EQUAL);
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_ONE);
     } while (first < lights.size());
+    glDisable(GL_STENCIL_TEST);
     glDisable(GL_BLEND);
 }
 
@@ -322,7 +332,7 @@ std::vector<glm::vec3> GlScene::draw(std::span<const PointLight> lights, const D
     glBindFramebuffer(GL_FRAMEBUFFER, objects_->sum.framebuffer);
     glClear(GL_COLOR_BUFFER_BIT);
     for (std::uint32_t pass = 0; pass < options.passes; ++pass) {
-        const glm::vec2 jitter = jitterOf(pass, options.passes);
+        const glm::vec2 jitter = jitterOf(pass);
         loadMatrix(GL_PROJECTION, projectionMatrix(scene_, jitter, options.window));
         loadMatrix(GL_MODELVIEW, viewMatrix(scene_.camera));
         drawOnce(lights, options.lighting);

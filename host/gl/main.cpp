@@ -28,6 +28,8 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+constexpr float kCoarse = 0.5f;  // lighting at vertices is off by some percent then
+
 struct Arguments {
     std::string scene, lights = "5", lighting = "fixed-function", size, report;
     std::vector<std::string> outputs;
@@ -71,12 +73,27 @@ void run(const Arguments& arguments) {
         scene.render.width = size.x;
         scene.render.height = size.y;
     }
+    if (scene.display != glm::vec2(0.0f, 1.0f)) {
+        throw InputError(arguments.scene, "display", "is not what OpenGL draws", "expected [0, 1]");
+    }
     DrawOptions options;
     options.lighting = lightingOf(arguments.lighting);
     options.passes = arguments.passes;
+    const std::vector<float>& window = arguments.window;
+    if (!(window[2] > 0.0f && window[3] > 0.0f && window[0] + window[2] <= 1.0f &&
+          window[1] + window[3] <= 1.0f)) {
+        throw UsageError(fmt::format("--window {},{},{},{}: expected a part of the image that has an area",
+                                     window[0], window[1], window[2], window[3]));
+    }
     std::copy(arguments.window.begin(), arguments.window.end(), options.window.begin());
     std::vector<PointLight> lights;
     if (options.lighting != Lighting::kWireframe) lights = pointLights(scene, tiling);
+    if (options.lighting == Lighting::kFixedFunction && coarseness(scene, lights) > kCoarse) {
+        fmt::print(stderr,
+                   "duolux-gl: warning: some triangles are large against their distance from a light, and "
+                   "OpenGL lights "
+                   "them at their corners alone; use smaller ones, or --lighting per-fragment\n");
+    }
     const double loadSeconds = secondsSince(start);
 
     const Clock::time_point contextStart = Clock::now();
@@ -126,7 +143,7 @@ int parseAndRun(int argc, char** argv) {
     CLI::App app{
         "Draws a scene with OpenGL's own lighting, its luminaires replaced by point lights: the reference "
         "for the\n"
-        "reflectance `local`.",
+        "reflectance `local`, which it draws whatever the scene's own is.",
         "duolux-gl"};
     app.set_version_flag("--version", fmt::format("duolux-gl {} ({})", versionString(), commitString()));
     app.get_formatter()->column_width(36);

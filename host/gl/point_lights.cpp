@@ -94,7 +94,9 @@ std::vector<PointLight> pointLights(const Scene& scene, const Tiling& tiling) {
         const Emitter emitter = emitters.back();
         emitters.pop_back();
         std::optional<Parallelogram> parallelogram;
-        for (std::size_t i = 0; i < emitters.size() && !parallelogram; ++i) {
+        // The two triangles of a quadrilateral follow each other: the nearest first, or a strip is joined
+        // askew.
+        for (std::size_t i = emitters.size(); i-- > 0 && !parallelogram;) {
             if (emitters[i].material != emitter.material) continue;
             parallelogram = join(emitter.corners, emitters[i].corners);
             if (parallelogram) emitters.erase(emitters.begin() + static_cast<std::ptrdiff_t>(i));
@@ -108,6 +110,23 @@ std::vector<PointLight> pointLights(const Scene& scene, const Tiling& tiling) {
         addLights(lights, *parallelogram, material.emission, tiling);
     }
     return lights;
+}
+
+float coarseness(const Scene& scene, const std::vector<PointLight>& lights) {
+    const Geometry& geometry = scene.geometry;
+    float largest = 0.0f;
+    for (const glm::uvec3& t : geometry.triangles) {
+        const glm::vec3 a = geometry.positions[t.x];
+        const glm::vec3 b = geometry.positions[t.y];
+        const glm::vec3 c = geometry.positions[t.z];
+        const float edge = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+        for (const PointLight& light : lights) {
+            const glm::vec3 offset = (a + b + c) / 3.0f - light.position;
+            if (glm::dot(offset, light.direction) > 0.0f)
+                largest = std::max(largest, edge / glm::length(offset));
+        }
+    }
+    return largest;
 }
 
 }  // namespace duolux

@@ -7,13 +7,12 @@
 
 namespace duolux {
 
-glm::vec2 jitterOf(std::uint32_t index, std::uint32_t count) {
-    std::uint32_t reversed = 0;
-    for (int bit = 0; bit < 32; ++bit)
-        reversed |= (index >> bit & 1u) << (31 - bit);
-    const auto n = static_cast<float>(count);
-    return {(static_cast<float>(index) + 0.5f) / n,
-            std::min(static_cast<float>(reversed >> 8) * 0x1p-24f + 0.5f / n, 0.99999994f)};
+glm::vec2 jitterOf(std::uint32_t index) {
+    constexpr double kPlastic = 1.32471795724474602596;  // the root of x^3 = x + 1
+    const auto fraction = [](double x) {
+        return std::min(static_cast<float>(x - std::floor(x)), 0.99999994f);
+    };
+    return {fraction(0.5 + index / kPlastic), fraction(0.5 + index / (kPlastic * kPlastic))};
 }
 
 glm::mat4 viewMatrix(const Camera& camera) {

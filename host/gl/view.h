@@ -8,9 +8,10 @@
 
 namespace duolux {
 
-/// Where in its pixel pass `index` of `count` samples, from the top left corner, in [0, 1): Hammersley's
-/// points, so that edges of any direction are met at `count` different places.
-glm::vec2 jitterOf(std::uint32_t index, std::uint32_t count);
+/// Where in its pixel pass `index` samples, from the top left corner, in [0, 1): the R2 sequence of M.
+/// Roberts ("The Unreasonable Effectiveness of Quasirandom Sequences", 2018), so that edges of any direction,
+/// the diagonals too, are met at as many places as there are passes.
+glm::vec2 jitterOf(std::uint32_t index);
 
 /// OpenGL's eye coordinates for the scene's camera.
 glm::mat4 viewMatrix(const Camera& camera);

@@ -29,7 +29,7 @@ class Laboratory {
         compareAll();
         figureFour();
         explainResidual();
-        if (!setup_.quick) race();
+        race();
         return std::move(result_);
     }
 
@@ -97,7 +97,7 @@ class Laboratory {
     void figureOne() {
         say("Figure 1: the four reflectances, luminaire visible");
         std::vector<SheetCell> cells;
-        for (const char* preset : {"local", "global", "shadowless", "one-bounce"}) {
+        for (const char* preset : {"global", "shadowless", "one-bounce", "local"}) {
             const std::string name = std::string("figure1-") + preset;
             std::vector<std::string> options{"--preset", preset, "--spp", setup_.quick ? "4" : "256"};
             // Without end `shadowless` grows without end: this is the picture of four bounces.
@@ -327,7 +327,10 @@ double Race::median(const std::vector<double>& seconds) const {
 }
 
 Experiment runExperiment(const ExperimentSetup& setup) {
-    fs::create_directories(setup.folder);
+    std::error_code error;
+    fs::create_directories(setup.folder, error);
+    if (error)
+        throw UsageError(fmt::format("-o {}: {}; expected a folder", setup.folder.string(), error.message()));
     return Laboratory(setup).run();
 }
 

@@ -19,7 +19,7 @@ struct ExperimentSetup {
     std::vector<std::uint32_t> crossing{1000,    5000,    20'000,
                                         100'000, 500'000, 2'000'000};  ///< triangles, for speed
     int repetitions = 3;                                               ///< of what is timed
-    bool quick = false;                                                ///< for tests: few lights, no speed
+    bool quick = false;                                                ///< for tests: few lights and samples
 };
 
 /// One comparison of `local` by transport with OpenGL.

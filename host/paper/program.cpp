@@ -20,7 +20,7 @@ nlohmann::json runProgram(const std::filesystem::path& program, std::vector<std:
     const pid_t child = ::fork();
     if (child < 0) throw MachineError("cannot start another process");
     if (child == 0) {
-        ::execv(program.c_str(), argv.data());
+        ::execvp(program.c_str(), argv.data());
         ::_exit(127);
     }
     int status = 0;
@@ -29,7 +29,9 @@ nlohmann::json runProgram(const std::filesystem::path& program, std::vector<std:
         std::string line;
         for (const std::string& argument : arguments)
             line += (line.empty() ? "" : " ") + argument;
-        throw MachineError(fmt::format("failed: {}", line));
+        throw MachineError(fmt::format(
+            "failed ({}): {}",
+            WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "cannot be started" : "see above", line));
     }
     return nlohmann::json::parse(readFile(report));
 }

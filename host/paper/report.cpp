@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,37 +26,62 @@ std::string percent(double x) {
     return fmt::format("{:.3f}", 100.0 * x);
 }
 
-/// Rows: lights; columns: samples per pixel; one table for each estimator and kind of OpenGL's lighting.
+struct Metric {
+    const char* name;
+    double Comparison::*value;
+};
+constexpr std::array<Metric, 4> kMetrics{{{"mean eps", &Comparison::epsMean},
+                                          {"largest eps", &Comparison::epsMax},
+                                          {"difference of the average colours", &Comparison::averageColour},
+                                          {"pixels with eps > 1/255", &Comparison::epsAboveOneCode}}};
+
+/// Rows: lights; columns: samples per pixel; one table for each metric, estimator and kind of OpenGL's
+/// lighting.
 std::vector<Table> errorTables(const ExperimentSetup& setup, const Experiment& experiment) {
     std::vector<Table> tables;
-    std::map<std::pair<std::string, std::string>, std::size_t> known;
-    std::map<std::size_t, std::map<std::string, std::size_t>> rows;
-    for (const Cell& cell : experiment.cells) {
-        const auto [entry, isNew] = known.try_emplace({cell.lighting, cell.estimator}, tables.size());
-        if (isNew) {
-            Table table{fmt::format("`local`, {}, against OpenGL, {}: mean eps (away from silhouettes / at "
-                                    "them), largest eps, "
-                                    "difference of the average colours, pixels with eps > 1/255; all in %",
-                                    cell.estimator, cell.lighting),
-                        {"lights"},
-                        {}};
-            for (const std::uint32_t spp : setup.spp)
-                table.head.push_back(fmt::format("{} spp", spp));
-            tables.push_back(table);
+    for (const Metric& metric : kMetrics) {
+        std::map<std::pair<std::string, std::string>, Table> byKind;
+        for (const Cell& cell : experiment.cells) {
+            Table& table = byKind[{cell.estimator, cell.lighting}];
+            if (table.head.empty()) {
+                table.caption = fmt::format(
+                    "{} of `local`, {}, against OpenGL, {}, in %: **all pixels** (away from "
+                    "silhouettes / at them)",
+                    metric.name, cell.estimator, cell.lighting);
+                table.head.emplace_back("lights");
+                for (const std::uint32_t spp : setup.spp)
+                    table.head.push_back(fmt::format("{} spp", spp));
+            }
+            auto row = std::ranges::find_if(table.rows, [&](const auto& r) { return r[0] == cell.lights; });
+            if (row == table.rows.end()) row = table.rows.insert(row, {cell.lights});
+            row->push_back(fmt::format("**{}** ({} / {})", percent(cell.all.*metric.value),
+                                       percent(cell.smooth.*metric.value),
+                                       percent(cell.silhouettes.*metric.value)));
         }
-        Table& table = tables[entry->second];
-        const auto [row, newRow] = rows[entry->second].try_emplace(cell.lights, table.rows.size());
-        if (newRow) table.rows.push_back({cell.lights});
-        table.rows[row->second].push_back(fmt::format(
-            "**{}** ({} / {}), {}, {}, {}", percent(cell.all.epsMean), percent(cell.smooth.epsMean),
-            percent(cell.silhouettes.epsMean), fmt::format("{:.1f}", 100.0 * cell.all.epsMax),
-            percent(cell.all.averageColour), fmt::format("{:.1f}", 100.0 * cell.all.epsAboveOneCode)));
+        for (const auto& [kind, table] : byKind)
+            tables.push_back(table);
     }
     return tables;
 }
 
+/// The processor, as the system calls it.
+std::string processorName() {
+    std::ifstream lines("/proc/cpuinfo");
+    std::string name = "unknown processor";
+    unsigned count = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("processor")) ++count;
+        if (line.starts_with("model name")) name = line.substr(line.find(':') + 2);
+    }
+    return fmt::format("{} ({} cores)", name, count);
+}
+
 Table residualTable(const Experiment& experiment) {
-    Table table{"The residual with five lights, taken apart: mean eps in %", {"between", "mean eps"}, {}};
+    Table table{
+        "The residual with five lights, taken apart: mean eps in % (means of errors without sign: they do "
+        "not add up)",
+        {"between", "mean eps"},
+        {}};
     for (const auto& [what, eps] : experiment.residual)
         table.rows.push_back({what, percent(eps)});
     return table;
@@ -61,9 +89,9 @@ Table residualTable(const Experiment& experiment) {
 
 Table speedTable(const Experiment& experiment) {
     Table table{
-        "Seconds for 64 samples per pixel (`local`) and 64 passes with five lights (OpenGL, fixed function): "
-        "medians "
-        "of runs in turns; whole program in brackets",
+        "Seconds for 64 samples per pixel (`local`) and 64 passes with five lights (OpenGL, fixed function), "
+        "of drawing "
+        "alone; medians of runs in turns; in brackets the whole program, with loading, uploading and writing",
         {"triangles", "`local`, closed form", "`local`, sampled", "OpenGL", "OpenGL / closed form",
          "OpenGL / sampled"},
         {}};
@@ -96,10 +124,14 @@ std::optional<double> crossing(const Experiment& experiment) {
 
 std::vector<std::string> remarks(const ExperimentSetup& setup, const Experiment& experiment) {
     std::vector<std::string> lines;
-    lines.push_back(fmt::format(
-        "{} triangles, {} x {} pixels, OpenGL with {} passes. Transport on {}; OpenGL on {}. duolux {} ({}).",
-        setup.triangles, setup.size, setup.size, setup.passes, experiment.device, experiment.openGl,
-        versionString(), commitString()));
+    lines.push_back(
+        fmt::format("{} triangles, {} x {} pixels, OpenGL with {} passes. Transport on {}; OpenGL on {}; "
+                    "processor: {}. duolux {} ({}).",
+                    setup.triangles, setup.size, setup.size, setup.passes, experiment.device,
+                    experiment.openGl, processorName(), versionString(), commitString()));
+    lines.emplace_back(
+        "32x32 lights are drawn per fragment alone: at vertices, eight at a time, they would take 128 "
+        "drawings of the scene a pass.");
     lines.push_back(
         fmt::format("Silhouettes (where a pixel or one of its neighbours shows more than one object) are "
                     "{:.1f} % of the pixels.",
@@ -108,7 +140,10 @@ std::vector<std::string> remarks(const ExperimentSetup& setup, const Experiment&
         "The paper reports a mean eps of 0.4 % and average colours that differ by less than 1/255 (0.392 "
         "%).");
     if (const auto triangles = crossing(experiment))
-        lines.push_back(fmt::format("Both take as long at about {:.0f} triangles.", *triangles));
+        lines.push_back(
+            fmt::format("Both take as long at about {:.0e} triangles (flat normals, so that OpenGL can share "
+                        "few vertices).",
+                        *triangles));
     const auto toError = [&](const char* who, const TimeToError& t) {
         if (t.samples > 0) {
             lines.push_back(
@@ -217,15 +252,17 @@ eps of a pixel is the root mean square difference of its three channels, of disp
                            caption, caption);
     };
     out += "<h2>Figure 1</h2>\n";
-    figure("figure1.png",
-           "The four reflectances, luminaire visible (256 samples per pixel; shadowless: four bounces)");
+    figure("figure1.png", "The four reflectances, luminaire visible (shadowless: four bounces)");
     out += "<h2>Figure 4</h2>\n";
-    figure("figure4-pictures.png", "Two spheres by OpenGL and by transport");
+    figure(
+        "figure4-pictures.png",
+        "Two spheres by OpenGL (fixed function, five lights) and by transport (sampled, the most samples)");
     figure("figure4-details.png",
-           "Details: the mesh; the edge of the left sphere, each pixel magnified eight times");
+           "Details of the left sphere: its mesh (a quarter of the other details' width); its edge, each "
+           "pixel magnified eight times");
     out += "<h2>Where they differ</h2>\n";
     figure("heat-gl-5-fixed-function.png",
-           "eps against OpenGL's fixed function with five lights; white is 2 %");
+           "eps of that transport against OpenGL's fixed function with five lights; white is 2 %");
     figure("heat-gl-5-per-fragment.png",
            "The same against OpenGL per fragment: what lighting at vertices adds is gone");
     figure("mask.png", "White: away from silhouettes");

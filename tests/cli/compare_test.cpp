@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "host/film/image.h"
@@ -90,6 +91,26 @@ TEST_F(CompareCommand, TheHeatMapShowsWhereItDiffers) {
     EXPECT_EQ(map.visible[0], glm::vec3(1.0f));
     for (std::size_t i = 1; i < 6; ++i)
         EXPECT_EQ(map.visible[i], glm::vec3(0.0f));
+}
+
+TEST_F(CompareCommand, PixelsThatAreNotFiniteFailEveryLimit) {
+    RadianceImage image{3, 2, std::vector<glm::vec3>(6), std::vector<glm::vec3>(6, glm::vec3(0.1f))};
+    image.visible[4].y = NAN;
+    writeImage(folder_ / "nan.pfm", image, {});
+    const ProgramResult result = compare({"nan.pfm", "reference.png", "--fail-above", "eps_max=1"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.out, HasSubstr("pixels not finite         1"));
+}
+
+TEST_F(CompareCommand, AnExrIsComparedAsDisplayed) {
+    RadianceImage image{3, 2, std::vector<glm::vec3>(6, glm::vec3(0.5f)),
+                        std::vector<glm::vec3>(6, glm::vec3(0.1f))};
+    ImageOptions options;
+    options.display = {1.0f, 0.0f};
+    writeImage(folder_ / "a.exr", image, options);
+    writeImage(folder_ / "a.pfm", image, options);
+    EXPECT_EQ(json({"a.exr", "a.pfm"})["eps_max"], 0.0);
+    EXPECT_EQ(json({"a.exr", "a.pfm", "--transfer", "linear", "--exposure", "1"})["eps_max"], 0.0);
 }
 
 TEST_F(CompareCommand, ImagesOfTwoSizesAreRefused) {

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "host/compare/compare.h"
 #include "host/film/image.h"
@@ -43,7 +45,7 @@ class OpenGl : public testing::Test {
     TemporaryFolder folder_;
 };
 
-// Five lights are within the paper's 0.4 % even at vertices that are few here; per fragment and with many
+// With vertices that are few here five lights are within 0.5 %; per fragment and with many
 // lights only silhouettes are left, where 64 passes and 64 samples fall on different places.
 TEST_F(OpenGl, LocalReproducesIt) {
     const RadianceImage transport = local("64");
@@ -66,14 +68,39 @@ TEST_F(OpenGl, BatchesOfLightsAddUp) {
     EXPECT_LT(c.averageColour, 0.002);
 }
 
+// Emission comes once, not with each batch; and of two surfaces in one place one is drawn.
+TEST_F(OpenGl, BatchesAddNothingTwice) {
+    std::string text = contentsOf(folder_ / "two_spheres.json");
+    const std::string dark = "\"visible\": [0, 0, 0]";
+    text.replace(text.find(dark), dark.size(), "\"visible\": [0.25, 0.25, 0.25]");
+    std::ofstream(folder_ / "two_spheres.json") << text;
+    const RadianceImage one = drawn({"--lights", "2x4", "--passes", "1"});
+    const RadianceImage two = drawn({"--lights", "4x4", "--passes", "1"});
+    EXPECT_NEAR(two.visible[18 * 128 + 64].y, 0.25f, 1e-3f) << "the luminaire";
+
+    std::string obj = contentsOf(folder_ / "two_spheres.obj");
+    const std::size_t floor = obj.find("o floor");
+    const std::string again = obj.substr(floor, obj.find("o ceiling") - floor);
+    std::string faces;
+    std::istringstream lines(again);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("f ") || line.starts_with("usemtl")) faces += line + "\n";
+    }
+    std::ofstream(folder_ / "two_spheres.obj", std::ios::app) << faces;
+    const Comparison c = compare(drawn({"--lights", "4x4", "--passes", "1"}), two, {});
+    EXPECT_LT(c.epsMax, 1e-5);
+    EXPECT_GT(compare(one, two, {}).epsMax, 0.0);
+}
+
 TEST_F(OpenGl, ReportsWhatItRanOn) {
     ASSERT_EQ(draw("gl.png", {"--lights", "3x3", "--passes", "2", "--report", "r.json"}).status, 0);
     const nlohmann::json report = nlohmann::json::parse(contentsOf(folder_ / "r.json"));
     EXPECT_EQ(report["settings"]["lights"], 9);
-    EXPECT_EQ(report["opengl"]["lights_at_once"], 8);
-    EXPECT_EQ(report["opengl"]["scene_drawings"], 4);
+    const int atOnce = report["opengl"]["lights_at_once"];
+    EXPECT_GE(atOnce, 8);
+    EXPECT_EQ(report["opengl"]["scene_drawings"], atOnce < 9 ? 4 : 2);
     EXPECT_GT(report["seconds"]["draw"], 0.0);
-    EXPECT_THAT(report["opengl"]["version"].get<std::string>(), HasSubstr("Mesa"));
+    EXPECT_NE(report["opengl"]["version"], "");
 }
 
 TEST_F(OpenGl, WireframeShowsEdges) {
@@ -95,6 +122,8 @@ TEST_F(OpenGl, BadArgumentsAreRefused) {
                                                {"--passes", "0"},
                                                {"--lighting", "phong"},
                                                {"--window", "0,0,2,1"},
+                                               {"--window", "0,0,0,1"},
+                                               {"--window", "0.5,0,0.6,1"},
                                                {"--report", "two_spheres.json"}}) {
         const ProgramResult result = draw("gl.png", options);
         EXPECT_EQ(result.status, 2) << options[0];
@@ -121,6 +150,9 @@ TEST_F(OpenGl, TheExperimentWritesItsReport) {
     EXPECT_EQ(pictures, 6u);
     const nlohmann::json results = nlohmann::json::parse(contentsOf(folder_ / "paper/results.json"));
     EXPECT_EQ(results["cells"].size(), 2u * 2u * 4u);
+    EXPECT_EQ(results["races"].size(), 2u);
+    for (const char* words : {"largest eps", "do not add up", "OpenGL / closed form"})
+        EXPECT_THAT(contentsOf(folder_ / "paper/tables.md"), HasSubstr(words));
     for (const auto& cell : results["cells"]) {
         if (cell["estimator"] != "closed-form" || cell["lighting"] != "per-fragment") continue;
         EXPECT_LT(cell["smooth"]["eps_mean"].get<double>(), cell["silhouettes"]["eps_mean"].get<double>());

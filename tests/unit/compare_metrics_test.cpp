@@ -103,6 +103,22 @@ TEST(Compare, TheDisplayRowChoosesComponents) {
     EXPECT_NEAR(compare(a, image(1, {glm::vec3(0.25f)}), options).epsMean, 0.5, 1e-7);
 }
 
+TEST(Compare, PixelsThatAreNotFiniteLeaveNoMetric) {
+    for (const float bad : {std::nanf(""), INFINITY, -INFINITY}) {
+        const RadianceImage broken = image(2, {glm::vec3(0.5f), {0.5f, bad, 0.5f}});
+        const RadianceImage fine = image(2, {glm::vec3(0.5f), glm::vec3(0.5f)});
+        for (const Comparison& c :
+             {compare(broken, fine, {}), compare(fine, broken, {}), compare(broken, broken, {})}) {
+            EXPECT_EQ(c.nonFinite, 1u);
+            for (const auto& [name, value] : c.metrics())
+                EXPECT_TRUE(std::isnan(value)) << name;
+        }
+        CompareOptions masked;
+        masked.mask = {true, false};
+        EXPECT_EQ(compare(broken, fine, masked).nonFinite, 0u);
+    }
+}
+
 TEST(HeatMap, GrowsFromBlackToWhite) {
     const RadianceImage map = heatMap({0.0f, 0.01f, 0.02f, 0.03f, 0.04f, 0.05f, 7.0f}, 7, 1, 0.05f);
     EXPECT_EQ(map.visible.front(), glm::vec3(0.0f));

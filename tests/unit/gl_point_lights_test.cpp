@@ -121,6 +121,21 @@ TEST(PointLights, WhatIsNoParallelogramIsRefused) {
     EXPECT_THAT(error(dark), HasSubstr("nothing emits invisible light"));
 }
 
+TEST(PointLights, AStripOfQuadrilateralsIsSeveralLuminaires) {
+    SceneBuilder builder;
+    Material lamp;
+    lamp.emission = {glm::vec3(kRadiance), glm::vec3(0.0f), Sides::kFront};
+    const std::uint32_t index = builder.add(lamp);
+    for (int i = 0; i < 5; ++i) {
+        const auto x = static_cast<float>(i);
+        builder.quad({x, 2, 0}, {x + 1, 2, 0}, {x + 1, 2, 1}, {x, 2, 1}, index);
+    }
+    const auto lights = pointLights(builder.scene, Tiling::parse("1x1"));
+    ASSERT_EQ(lights.size(), 5u);
+    for (const PointLight& light : lights)
+        EXPECT_NEAR(light.position.x - std::floor(light.position.x), 0.5f, 1e-5f);
+}
+
 TEST(PointLights, TilingsAreChecked) {
     for (const char* wrong : {"", "6", "3x", "x3", "0x3", "3x257", "3x3x3", "-1x2", "3*3"})
         EXPECT_THROW(Tiling::parse(wrong), UsageError) << wrong;

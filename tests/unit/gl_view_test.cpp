@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <set>
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "host/gl/vertices.h"
 #include "host/gl/view.h"
@@ -56,23 +58,22 @@ TEST(GlView, AWindowMagnifiesItsPart) {
     EXPECT_NEAR(at.y, 10.0f, 1e-3f);
 }
 
-TEST(GlView, JittersCoverThePixelEvenly) {
-    for (const std::uint32_t count : {1u, 16u, 64u, 100u}) {
-        std::set<int> columns;
-        std::set<int> rows;
-        glm::dvec2 sum(0.0);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const glm::vec2 j = jitterOf(i, count);
+TEST(GlView, JittersMeetEdgesOfAnyDirectionAtDifferentPlaces) {
+    constexpr std::uint32_t kCount = 64;
+    for (const glm::vec2 across : {glm::vec2(1, 0), {0, 1}, {1, 1}, {1, -1}, {1, -2}, {2, 1}, {3, -1}}) {
+        std::vector<float> places;
+        for (std::uint32_t i = 0; i < kCount; ++i) {
+            const glm::vec2 j = jitterOf(i);
             ASSERT_GE(std::min(j.x, j.y), 0.0f);
             ASSERT_LT(std::max(j.x, j.y), 1.0f);
-            columns.insert(static_cast<int>(j.x * static_cast<float>(count)));
-            rows.insert(static_cast<int>(j.y * static_cast<float>(count)));
-            sum += glm::dvec2(j);
+            const float place = glm::dot(j, across);
+            places.push_back(place - std::floor(place));  // an edge comes back in every pixel
         }
-        EXPECT_EQ(columns.size(), count);
-        EXPECT_EQ(rows.size(), (count & (count - 1)) == 0 ? count : rows.size());
-        EXPECT_NEAR(sum.x / count, 0.5, 1e-6);
-        EXPECT_NEAR(sum.y / count, 0.5, 0.01);
+        std::sort(places.begin(), places.end());
+        for (std::uint32_t i = 1; i < kCount; ++i) {
+            EXPECT_GT(places[i] - places[i - 1], 0.02f / kCount) << across.x << " " << across.y;
+            EXPECT_LT(places[i] - places[i - 1], 5.0f / kCount) << across.x << " " << across.y;
+        }
     }
 }
 
