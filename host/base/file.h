@@ -10,9 +10,9 @@ namespace duolux {
 /// The whole file as bytes. Throws InputError if it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
-/// Writes a file so that a reader sees the old one or the complete new one, never a part: `write` is given the path of
-/// a temporary in the same folder, which is then renamed over `path`. The temporary is removed if `write` throws.
-/// Throws MachineError naming `path` if the folder cannot be written to.
+/// Writes a file so that a reader sees the old one or the complete new one, never a part: `write` is given
+/// the path of a temporary in the same folder, which is then renamed over `path`. The temporary is removed if
+/// `write` throws. Throws MachineError naming `path` if the folder cannot be written to.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -67,8 +67,8 @@ class Renderer {
                 "`shadowless`), flat normals, and from 1 to {} emitting triangles",
                 scene_.source.string(), kMostClosedFormLights));
         }
-        // Where light is reflected again and again, direct light is a small part of the noise: on the Cornell box
-        // `shadowless` in closed form has 7 % less variance, and takes 10 % longer.
+        // Where light is reflected again and again, direct light is a small part of the noise: on the Cornell
+        // box `shadowless` in closed form has 7 % less variance, and takes 10 % longer.
         const bool pays = !deviceScene_.traits.invisibleScatters;
         return applies && (control_.directLight == DirectLight::kClosedForm ||
                            (pays && control_.directLight == DirectLight::kAuto));

@@ -15,8 +15,10 @@ Reflectance blendReflectance(float t, float o) {
 }
 
 std::span<const Preset> presets() {
-    static constexpr std::array<Preset, 4> kPresets{{
-        {"local", 1.0f, 0.0f}, {"global", 0.0f, 1.0f}, {"shadowless", 1.0f, 1.0f}, {"one-bounce", 0.0f, 0.0f}}};
+    static constexpr std::array<Preset, 4> kPresets{{{"local", 1.0f, 0.0f},
+                                                     {"global", 0.0f, 1.0f},
+                                                     {"shadowless", 1.0f, 1.0f},
+                                                     {"one-bounce", 0.0f, 0.0f}}};
     return kPresets;
 }
 

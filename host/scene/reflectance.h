@@ -8,8 +8,8 @@
 
 namespace duolux {
 
-/// A 2x2 matrix per colour channel: entry ij acts from component j on component i, 0 = invisible, 1 = visible;
-/// each entry holds the three channels (r, g, b). Entries are finite and >= 0.
+/// A 2x2 matrix per colour channel: entry ij acts from component j on component i, 0 = invisible, 1 =
+/// visible; each entry holds the three channels (r, g, b). Entries are finite and >= 0.
 struct LightMatrix {
     glm::vec3 m00{0.0f}, m01{0.0f}, m10{0.0f}, m11{0.0f};
 

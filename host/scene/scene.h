@@ -25,8 +25,8 @@ struct Emission {
 /// f_opaque and what the surface emits. Today's BSDF is diffuse: f_opaque = diffuse / pi.
 struct Material {
     std::string name;
-    glm::vec3 diffuse{0.8f};           ///< albedo per channel, 0..1
-    Sides sides = Sides::kBoth;        ///< kFront: f_opaque acts only on the side the winding makes the front
+    glm::vec3 diffuse{0.8f};     ///< albedo per channel, 0..1
+    Sides sides = Sides::kBoth;  ///< kFront: f_opaque acts only on the side the winding makes the front
     Emission emission;
     std::optional<Reflectance> reflectance;  ///< overrides the scene's reflectance if set
 };
@@ -34,10 +34,11 @@ struct Material {
 /// Triangles in world space. Counter-clockwise winding, seen from the front.
 struct Geometry {
     std::vector<glm::vec3> positions;
-    std::vector<glm::uvec3> triangles;        ///< indices into positions
-    std::vector<std::uint32_t> materials;     ///< per triangle, index into Scene::materials
-    std::vector<glm::vec3> normals;           ///< unit shading normals; empty if no triangle has them
-    std::vector<glm::uvec3> normalIndices;    ///< per triangle; kNoNormal in .x: flat. Empty if normals is empty
+    std::vector<glm::uvec3> triangles;     ///< indices into positions
+    std::vector<std::uint32_t> materials;  ///< per triangle, index into Scene::materials
+    std::vector<glm::vec3> normals;        ///< unit shading normals; empty if no triangle has them
+    std::vector<glm::uvec3>
+        normalIndices;  ///< per triangle; kNoNormal in .x: flat. Empty if normals is empty
 
     static constexpr std::uint32_t kNoNormal = 0xffffffffu;
 };
@@ -60,17 +61,19 @@ struct RenderSettings {
     Sampler sampler = Sampler::kSobol;
 };
 
-/// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera vectors.
+/// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera
+/// vectors.
 struct Scene {
-    std::filesystem::path source;   ///< the file that was loaded
-    std::string hash;               ///< 16 hex digits over everything the image depends on but RenderSettings
+    std::filesystem::path source;  ///< the file that was loaded
+    std::string hash;              ///< 16 hex digits over everything the image depends on but RenderSettings
     Camera camera;
     RenderSettings render;
     glm::vec2 display{0.0f, 1.0f};  ///< the row d of eq. 8; the displayed radiance is d . L
     Reflectance reflectance;        ///< scene-wide
     std::vector<Material> materials;
     Geometry geometry;
-    std::vector<std::string> warnings;  ///< for the user: default light used, missing MTL, degenerate triangles ...
+    std::vector<std::string>
+        warnings;  ///< for the user: default light used, missing MTL, degenerate triangles ...
 
     const Reflectance& reflectanceOf(const Material& material) const {
         return material.reflectance ? *material.reflectance : reflectance;

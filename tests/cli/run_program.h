@@ -22,7 +22,8 @@ struct ProgramSignal {
 
 /// Runs a program with arguments in `folder`, and waits for it; sends it a signal on the way if asked to.
 ProgramResult runProgram(const std::string& program, const std::filesystem::path& folder,
-                         std::vector<std::string> arguments, std::optional<ProgramSignal> signal = std::nullopt);
+                         std::vector<std::string> arguments,
+                         std::optional<ProgramSignal> signal = std::nullopt);
 
 /// Runs duolux with arguments in `folder`, and waits for it; sends it a signal on the way if asked to.
 ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
