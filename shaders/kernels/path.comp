@@ -34,10 +34,10 @@ layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; }
 
 #include "shaders/lib/camera.glsl"
 #include "shaders/lib/lights.glsl"
-#include "shaders/lib/normals.glsl"
 #include "shaders/lib/polygon_light.glsl"
 #include "shaders/lib/sampler.glsl"
 #include "shaders/lib/slot_sums.glsl"
+#include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
 #include "shaders/lib/traverse.glsl"
 
@@ -73,9 +73,7 @@ struct Path {
 struct Vertex {
     LightMatrix importance;  // W O, of the chosen vertex
     Bsdf bsdf;
-    vec3 position;           // moved off the surface to the side of the path
-    vec3 geometricNormal;    // unit, to the side of the path
-    vec3 shadingNormal;      // the same side
+    SurfacePoint point;
     float weight;            // of the chosen vertex
     float weightSum;         // of all vertices of the segment
 };
@@ -115,7 +113,7 @@ Path cameraPath(uint pixel, vec2 u) {
 // Next-event estimation at a vertex: sets up a shadow ray, or gathers at once where nothing can be in between.
 void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex, vec3 wo, uvec2 u, uint scatterings) {
     LightSample light = sampleLight(params.lightCount, u);
-    vec3 offset = light.position - vertex.position;
+    vec3 offset = light.position - vertex.point.position;
     float side = dot(light.normal, offset) < 0.0 ? 1.0 : -1.0;
     // To just in front of the emitter, which must not hide itself.
     vec3 toLight = offset + light.normal * (side * light.positionError);
@@ -123,26 +121,24 @@ void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex,
     float distance = sqrt(distanceSquared);
     vec3 direction = toLight / distance;
     float cosAtLight = dot(light.normal, direction);
-    float cosAtVertex = dot(vertex.shadingNormal, direction);
     Material material = fetchMaterial(light.material);
     Light emission = materialEmission(material, cosAtLight < 0.0);
 
     float pdf = pdfAreaToSolidAngle(material.lightPdfArea, distanceSquared, cosAtLight);
-    vec3 tangent, bitangent;
-    orthonormalBasis(vertex.shadingNormal, tangent, bitangent);
-    vec3 localWo = vec3(dot(tangent, wo), dot(bitangent, wo), dot(vertex.shadingNormal, wo));
-    vec3 localWi = vec3(dot(tangent, direction), dot(bitangent, direction), cosAtVertex);
+    vec3 localWo = toFrame(vertex.point.shadingNormal, wo);
+    vec3 localWi = toFrame(vertex.point.shadingNormal, direction);
+    float cosAtVertex = localWi.z;
     float misWeight = balanceHeuristic(pdf, bsdfPdf(vertex.bsdf, localWo, localWi));
     vec3 f = bsdfEvaluate(vertex.bsdf, localWo, localWi);
     LightMatrix importance = lightScale(vertex.importance, f * (cosAtVertex * misWeight / pdf));
     Light contribution = lightApply(importance, emission);
-    bool contributes = cosAtVertex > 0.0 && dot(vertex.geometricNormal, direction) > 0.0 && distance > 0.0 &&
+    bool contributes = cosAtVertex > 0.0 && dot(vertex.point.geometricNormal, direction) > 0.0 && distance > 0.0 &&
                        maxComponent(contribution.invisible + contribution.visible) > 0.0;
     if (kTransmittance == kTransmittanceIdentity) {
         if (contributes) gather(gathered, contribution, scatterings);
     } else if (contributes) {
         shadow.pending = true;
-        shadow.origin = vertex.position;
+        shadow.origin = vertex.point.position;
         shadow.direction = direction;
         shadow.distance = distance;
         shadow.t = 0.0;
@@ -162,12 +158,12 @@ void gatherClosedForm(inout Gathered gathered, Vertex vertex, uint scatterings) 
     Light total = Light(vec3(0.0), vec3(0.0));
     for (uint i = 0u; i < params.lightCount; i++) {
         LightTriangle light = fetchLight(i);
-        vec3 a = light.v0 - vertex.position;
-        vec3 b = light.v1 - vertex.position;
-        vec3 c = light.v2 - vertex.position;
+        vec3 a = light.v0 - vertex.point.position;
+        vec3 b = light.v1 - vertex.point.position;
+        vec3 c = light.v2 - vertex.point.position;
         bool front = dot(cross(light.v1 - light.v0, light.v2 - light.v0), a) < 0.0;
         Light emission = materialEmission(fetchMaterial(light.material), front);
-        float solidAngle = projectedSolidAngle(a, b, c, vertex.shadingNormal);
+        float solidAngle = projectedSolidAngle(a, b, c, vertex.point.shadingNormal);
         total.invisible += emission.invisible * solidAngle;
         total.visible += emission.visible * solidAngle;
     }
@@ -189,22 +185,18 @@ void endSegment(inout Path path, inout Vertex vertex, uint pixel, uint sampleInd
 
     vec2 u = samplePair(kSampler, pixel, sampleIndex, sampleDimension(path.scatterings, 0u, kDimensionDirection),
                         params.seed);
-    vec3 tangent, bitangent;
-    orthonormalBasis(vertex.shadingNormal, tangent, bitangent);
-    vec3 wo = -path.direction;
-    BsdfSample s = bsdfSample(
-        vertex.bsdf, vec3(dot(tangent, wo), dot(bitangent, wo), dot(vertex.shadingNormal, wo)), u);
-    vec3 direction = normalize(tangent * s.wi.x + bitangent * s.wi.y + vertex.shadingNormal * s.wi.z);
+    BsdfSample s = bsdfSample(vertex.bsdf, toFrame(vertex.point.shadingNormal, -path.direction), u);
+    vec3 direction = fromFrame(vertex.point.shadingNormal, s.wi);
     path.importance =
         lightScale(vertex.importance, s.weight * (weightSum / (vertex.weight * survival)));
-    path.origin = vertex.position;
+    path.origin = vertex.point.position;
     path.direction = direction;
     path.t = 0.0;
     path.primitive = kNoTriangle;
     path.bsdfPdf = s.pdf;
     path.scatterings += 1u;
     path.crossings = 0u;
-    path.ended = !(s.pdf > 0.0 && dot(vertex.geometricNormal, direction) > 0.0);
+    path.ended = !(s.pdf > 0.0 && dot(vertex.point.geometricNormal, direction) > 0.0);
 }
 
 bool onlyEmissionLeft(Path path) {
@@ -243,7 +235,6 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
     float cosine = dot(normal, path.direction);
     bool front = cosine < 0.0;
-    vec3 facing = front ? normal : -normal;
     LightMatrix w = importanceOf(path);
 
     float pdfOfLight = pdfAreaToSolidAngle(material.lightPdfArea, ray.t * ray.t, cosine);
@@ -259,13 +250,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
         Vertex here;
         here.importance = scattered;
         here.bsdf = material.bsdf;
-        here.geometricNormal = facing;
-        here.shadingNormal = facing;
-        if (kSmoothNormals && (tri.materialFlags & kTriangleSmooth) != 0u) {
-            vec3 smoothed = shadingNormal(ray.triangle, ray.barycentric);
-            here.shadingNormal = dot(smoothed, normal) * cosine > 0.0 ? -smoothed : smoothed;
-        }
-        here.position = pointOnTriangle(tri, ray.barycentric) + facing * pointError(tri);
+        here.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, path.direction, kSmoothNormals);
         here.weight = weight;
         here.weightSum = vertex.weightSum + weight;
         if (kDirectLight == kDirectLightClosedForm) gatherClosedForm(gathered, here, path.scatterings + 1u);
