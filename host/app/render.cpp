@@ -35,7 +35,7 @@ double secondsSince(Clock::time_point start) {
 struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
-    std::string preset, blend, size, sampler, directLight = "auto", device, report;
+    std::string preset, blend, size, sampler, integrator, directLight = "auto", device, report;
     std::optional<std::uint32_t> spp, bounces, seed;
     std::optional<double> timeLimit;
     float exposure = 0.0f;
@@ -57,6 +57,7 @@ struct Overrides {
     std::optional<Reflectance> reflectance;
     std::optional<glm::uvec2> size;
     std::optional<Sampler> sampler;
+    std::optional<Integrator> integrator;
 
     void applyTo(Scene& scene, const RenderOptions& options) const {
         RenderSettings& settings = scene.render;
@@ -66,6 +67,7 @@ struct Overrides {
             settings.height = size->y;
         }
         settings.sampler = sampler.value_or(settings.sampler);
+        settings.integrator = integrator.value_or(settings.integrator);
         settings.spp = options.spp.value_or(settings.spp);
         settings.bounces = options.bounces.value_or(settings.bounces);
         settings.seed = options.seed.value_or(settings.seed);
@@ -81,6 +83,9 @@ Overrides parseOverrides(const RenderOptions& options) {
     if (!options.size.empty()) overrides.size = parseSize(options.size);
     if (!options.sampler.empty()) {
         overrides.sampler = options.sampler == "sobol" ? Sampler::kSobol : Sampler::kIndependent;
+    }
+    if (!options.integrator.empty()) {
+        overrides.integrator = options.integrator == "light" ? Integrator::kLight : Integrator::kPath;
     }
     return overrides;
 }
@@ -256,6 +261,12 @@ void addRenderCommand(CLI::App& app) {
     command->add_option("--seed", options->seed, "Seed of the random numbers (default: the scene's, or 1)")
         ->type_name("N")
         ->check(wholeNumber(0, 0xffffffff));
+    command
+        ->add_option("--integrator", options->integrator,
+                     "Paths from the camera (path, the default), or from the emitters, each connected to the "
+                     "camera wherever it scatters (light); then --spp is the number of light paths per pixel")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"path", "light"}));
     command
         ->add_option("--sampler", options->sampler,
                      "Samples: Owen-scrambled Sobol points (the default), or independent ones")

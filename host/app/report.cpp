@@ -16,6 +16,10 @@ std::uint64_t peakHostBytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
 }
 
+const char* integratorName(Integrator integrator) {
+    return integrator == Integrator::kLight ? "light" : "path";
+}
+
 double perSecond(std::uint64_t count, double seconds) {
     return seconds > 0.0 ? static_cast<double>(count) / seconds * 1e-6 : 0.0;
 }
@@ -24,8 +28,11 @@ double perSecond(std::uint64_t count, double seconds) {
 
 std::string renderReport(const Scene& scene, const DeviceInfo& device, const RenderStatistics& statistics,
                          const StageSeconds& seconds) {
-    const std::uint64_t rays =
-        statistics.cameraRays + statistics.bounceRays + statistics.shadowRays + statistics.emitterRays;
+    const std::uint64_t rays = statistics.cameraRays + statistics.lightRays + statistics.bounceRays +
+                               statistics.shadowRays + statistics.emitterRays;
+    const bool shot = scene.render.integrator == Integrator::kLight;
+    const char* directLight =
+        shot ? "light paths" : (statistics.directLightInClosedForm ? "closed-form" : "sampled");
     nlohmann::ordered_json report;
     report["version"] = 1;
     report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};
@@ -40,8 +47,8 @@ std::string renderReport(const Scene& scene, const DeviceInfo& device, const Ren
                           {"effective_bounces", statistics.effectiveBounces},
                           {"seed", scene.render.seed},
                           {"sampler", scene.render.sampler == Sampler::kSobol ? "sobol" : "independent"},
-                          {"integrator", "path"},
-                          {"direct_light", statistics.directLightInClosedForm ? "closed-form" : "sampled"},
+                          {"integrator", integratorName(scene.render.integrator)},
+                          {"direct_light", directLight},
                           {"reflectance", describeReflectance(scene.reflectance)}};
     report["device"] = {{"name", device.name},
                         {"driver", device.driver},
@@ -54,7 +61,7 @@ std::string renderReport(const Scene& scene, const DeviceInfo& device, const Ren
                          {"render", statistics.renderSeconds},
                          {"write", seconds.write},
                          {"total", seconds.total}};
-    report["device_seconds"] = {{"path", statistics.deviceSeconds}};
+    report["device_seconds"] = {{integratorName(scene.render.integrator), statistics.deviceSeconds}};
     report["dispatches"] = {{"count", statistics.dispatches},
                             {"longest_seconds", statistics.longestDispatchSeconds},
                             {"cut_short", statistics.dispatchesCutShort}};
@@ -62,11 +69,9 @@ std::string renderReport(const Scene& scene, const DeviceInfo& device, const Ren
                          {"non_finite", statistics.nonFiniteSamples},
                          {"overflowed_film", statistics.filmOverflowed},
                          {"complete", !statistics.stopped}};
-    report["rays"] = {{"camera", statistics.cameraRays},
-                      {"bounce", statistics.bounceRays},
-                      {"shadow", statistics.shadowRays},
-                      {"emitter", statistics.emitterRays},
-                      {"total", rays}};
+    report["rays"] = {{"camera", statistics.cameraRays},   {"light", statistics.lightRays},
+                      {"bounce", statistics.bounceRays},   {"shadow", statistics.shadowRays},
+                      {"emitter", statistics.emitterRays}, {"total", rays}};
     report["Mrays_per_second"] = perSecond(rays, statistics.renderSeconds);
     report["Msamples_per_second"] = perSecond(statistics.samples, statistics.renderSeconds);
     report["radiance"] = {{"mean", statistics.meanRadiance},

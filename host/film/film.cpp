@@ -13,6 +13,13 @@ std::int64_t saturatingAdd(std::int64_t a, std::int64_t b, bool& overflowed) {
     return b > 0 ? std::numeric_limits<std::int64_t>::max() : std::numeric_limits<std::int64_t>::min();
 }
 
+void addTo(Film::PixelSum& total, const Film::PixelSum& term, bool& overflowed) {
+    for (int c = 0; c < 3; ++c) {
+        total.invisible[c] = saturatingAdd(total.invisible[c], term.invisible[c], overflowed);
+        total.visible[c] = saturatingAdd(total.visible[c], term.visible[c], overflowed);
+    }
+}
+
 }  // namespace
 
 Film::Film(std::uint32_t width, std::uint32_t height, float quantum)
@@ -24,13 +31,17 @@ Film::Film(std::uint32_t width, std::uint32_t height, float quantum)
 
 void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        PixelSum& total = sums_[pixels[i]];
-        for (int c = 0; c < 3; ++c) {
-            total.invisible[c] = saturatingAdd(total.invisible[c], sums[i].invisible[c], overflowed_);
-            total.visible[c] = saturatingAdd(total.visible[c], sums[i].visible[c], overflowed_);
-        }
+        addTo(sums_[pixels[i]], sums[i], overflowed_);
         samples_[pixels[i]] += samples;
     }
+}
+
+void Film::addLight(std::span<const PixelSum> sums, std::uint64_t paths) {
+    lightPaths_ += paths;
+    if (sums.empty()) return;
+    lightSums_.resize(sums_.size(), PixelSum{});
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        addTo(lightSums_[i], sums[i], overflowed_);
 }
 
 std::uint64_t Film::totalSamples() const {
@@ -44,11 +55,19 @@ RadianceImage Film::resolve() const {
     RadianceImage image{width_, height_, {}, {}};
     image.invisible.resize(sums_.size());
     image.visible.resize(sums_.size());
+    const auto quantum = static_cast<double>(quantum_);
+    const double pixels = static_cast<double>(sums_.size());
+    const double lightScale = lightPaths_ > 0 ? quantum * pixels / static_cast<double>(lightPaths_) : 0.0;
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const double scale = samples_[i] > 0 ? static_cast<double>(quantum_) / samples_[i] : 0.0;
+        const double scale = samples_[i] > 0 ? quantum / samples_[i] : 0.0;
+        const PixelSum light = lightSums_.empty() ? PixelSum{} : lightSums_[i];
+        const auto value = [&](std::int64_t gathered, std::int64_t shot) {
+            return static_cast<float>(static_cast<double>(gathered) * scale +
+                                      static_cast<double>(shot) * lightScale);
+        };
         for (int c = 0; c < 3; ++c) {
-            image.invisible[i][c] = static_cast<float>(static_cast<double>(sums_[i].invisible[c]) * scale);
-            image.visible[i][c] = static_cast<float>(static_cast<double>(sums_[i].visible[c]) * scale);
+            image.invisible[i][c] = value(sums_[i].invisible[c], light.invisible[c]);
+            image.visible[i][c] = value(sums_[i].visible[c], light.visible[c]);
         }
     }
     return image;

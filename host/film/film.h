@@ -31,12 +31,19 @@ class Film {
     /// Overflow saturates, and overflowed() tells.
     void add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples);
 
+    /// Adds what `paths` more light paths brought to the camera: sums for all pixels, row-major, or none if
+    /// all paths were dark. Kept apart from what pixels gather: a pixel's value is the sum over all paths,
+    /// in units of radiance, divided by the number of paths per pixel of the image.
+    void addLight(std::span<const PixelSum> sums, std::uint64_t paths);
+
     bool overflowed() const { return overflowed_; }
     std::uint64_t totalSamples() const;
     std::uint32_t samplesOf(std::uint32_t pixel) const { return samples_[pixel]; }
     std::span<const PixelSum> sums() const { return sums_; }
+    std::uint64_t lightPaths() const { return lightPaths_; }
+    std::span<const PixelSum> lightSums() const { return lightSums_; }  ///< empty if there is no light
 
-    /// Mean radiance per pixel; black where no sample has been taken.
+    /// Mean radiance per pixel: what it gathered and what light paths brought; black where there is neither.
     RadianceImage resolve() const;
 
   private:
@@ -45,6 +52,8 @@ class Film {
     bool overflowed_ = false;
     std::vector<PixelSum> sums_;
     std::vector<std::uint32_t> samples_;
+    std::vector<PixelSum> lightSums_;
+    std::uint64_t lightPaths_ = 0;
 };
 
 }  // namespace duolux

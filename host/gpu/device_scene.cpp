@@ -146,12 +146,13 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
         if (scene.materials[geometry.materials[i]].emission.any()) emitters.push_back(i);
     }
     // Only rays that nothing stops look for emitters in a tree of their own.
-    const bool ownTree = traits.transmittance == shared::kTransmittanceIdentity;
+    const bool lightPaths = scene.render.integrator == Integrator::kLight;
+    const bool ownTree = traits.transmittance == shared::kTransmittanceIdentity && !lightPaths;
     const Trees trees = buildTrees(geometry, ownTree ? emitters : std::vector<std::uint32_t>{});
     const double buildSeconds = secondsSince(start);
 
     start = std::chrono::steady_clock::now();
-    const LightTable table = buildLightTable(scene, traits.secondColumn);
+    const LightTable table = buildLightTable(scene, traits.secondColumn || lightPaths);
     std::vector<shared::DeviceTriangle> triangles(trees.triangles.size());
     std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : trees.triangles.size());
     parallelFor(triangles.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {

@@ -14,9 +14,9 @@ float pointErrorOf(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 }
 
 /// What one unit of area emits, over both sides; the unit of power does not matter here.
-double brightness(const Emission& emission, bool secondColumn) {
+double brightness(const Emission& emission, bool bothComponents) {
     const glm::dvec3 e =
-        glm::dvec3(emission.invisible) + (secondColumn ? glm::dvec3(emission.visible) : glm::dvec3(0.0));
+        glm::dvec3(emission.invisible) + (bothComponents ? glm::dvec3(emission.visible) : glm::dvec3(0.0));
     return (e.x + e.y + e.z) * (emission.sides == Sides::kBoth ? 2.0 : 1.0);
 }
 
@@ -54,7 +54,7 @@ std::vector<AliasEntry> buildAliasTable(std::span<const double> weights) {
     return table;
 }
 
-LightTable buildLightTable(const Scene& scene, bool secondColumn) {
+LightTable buildLightTable(const Scene& scene, bool bothComponents) {
     const Geometry& geometry = scene.geometry;
     LightTable table;
     table.pdfArea.resize(scene.materials.size(), 0.0f);
@@ -62,7 +62,7 @@ LightTable buildLightTable(const Scene& scene, bool secondColumn) {
     double total = 0.0;
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
         const std::uint32_t material = geometry.materials[i];
-        const double bright = brightness(scene.materials[material].emission, secondColumn);
+        const double bright = brightness(scene.materials[material].emission, bothComponents);
         if (!(bright > 0.0)) continue;
         const glm::uvec3 index = geometry.triangles[i];
         const glm::vec3 a = geometry.positions[index.x];
@@ -84,7 +84,8 @@ LightTable buildLightTable(const Scene& scene, bool secondColumn) {
         table.lights[i].alias = aliases[i].alias;
     }
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        table.pdfArea[m] = static_cast<float>(brightness(scene.materials[m].emission, secondColumn) / total);
+        table.pdfArea[m] =
+            static_cast<float>(brightness(scene.materials[m].emission, bothComponents) / total);
     }
     return table;
 }

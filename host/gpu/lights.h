@@ -15,9 +15,9 @@ struct LightTable {
     std::vector<float> pdfArea;  ///< per material of the scene, m^-2: 0 if it does not emit
 };
 
-/// `secondColumn`: visible emission reaches surfaces, too (else only the invisible component lights the
-/// scene).
-LightTable buildLightTable(const Scene& scene, bool secondColumn);
+/// `bothComponents`: the power of both counts, because visible emission reaches surfaces or light paths carry
+/// it to the camera (else only that of the invisible one, which lights the scene).
+LightTable buildLightTable(const Scene& scene, bool bothComponents);
 
 /// Alias table (Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", 1991) of
 /// weights that are >= 0 and not all 0.

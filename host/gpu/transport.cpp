@@ -64,6 +64,10 @@ TransportTraits analyseTransport(const Scene& scene) {
     } else {
         traits.transmittance = shared::kTransmittanceGeneral;
     }
+    const bool loseVisible = !traits.visibleCrosses;
+    traits.cameraTransmittance = traits.transmittance == shared::kTransmittanceIdentity && !loseVisible
+                                     ? shared::kTransmittanceGeneral
+                                     : traits.transmittance;
 
     // Follow the components that can carry importance until none can.
     unsigned set = 3;

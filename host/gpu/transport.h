@@ -11,7 +11,10 @@ namespace duolux {
 /// does not pay for what it does not use.
 struct TransportTraits {
     std::uint32_t transmittance = shared::kTransmittanceZero;  ///< one of shared::kTransmittance...
-    bool secondColumn = false;                                 ///< some O or T has an entry 01 or 11
+    /// The same of what surfaces do to light on its way from a light path to the camera, both components of
+    /// which count: kTransmittanceIdentity if they pass the invisible one unchanged and nothing of the other.
+    std::uint32_t cameraTransmittance = shared::kTransmittanceZero;
+    bool secondColumn = false;  ///< some O or T has an entry 01 or 11
     bool invisibleScatters =
         false;  ///< some O has an entry in row 0: importance for invisible light scatters on
     bool visibleScatters = false;

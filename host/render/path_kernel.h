@@ -6,6 +6,7 @@
 
 #include "host/gpu/device_scene.h"
 #include "host/render/schedule.h"
+#include "host/render/teams.h"
 #include "host/scene/scene.h"
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
@@ -51,11 +52,12 @@ class PathKernel {
   private:
     struct Submitted {
         WorkRange range;
-        std::uint32_t teamSlots = 0, teams = 0;
+        std::uint32_t teamSlots = 0;
     };
 
-    std::uint32_t teamSize_, workgroupSize_, fewestTeams_, laneSamples_, maxSlots_;
-    Buffer params_, pixels_, results_, teams_, teamsRead_;
+    std::uint32_t laneSamples_, maxSlots_;
+    Teams teams_;
+    Buffer params_, pixels_, results_;
     Kernel kernel_;
     std::array<CommandSlot, 2> commands_;
     std::array<Submitted, 2> submitted_{};

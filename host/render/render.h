@@ -12,7 +12,8 @@
 
 namespace duolux {
 
-/// Where a render stands; passed to RenderControl::onProgress after every dispatch.
+/// Where a render stands; passed to RenderControl::onProgress after every dispatch, or every few of light
+/// paths. Samples are light paths if the scene's integrator shoots.
 struct RenderProgress {
     std::uint64_t samplesDone = 0, samplesTotal = 0;  ///< over all pixels
     double seconds = 0.0;                             ///< since the first dispatch
@@ -30,12 +31,14 @@ struct RenderControl {
     /// Called after every dispatch from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
     /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the
-    /// same.
+    /// same, or there are as many light paths as pixels.
     std::optional<double> timeLimit;
     /// For tests; 0: no limit but the renderer's own. None changes a bit of the image.
     std::uint32_t maxSamplesPerDispatch = 0;  ///< of one pixel
-    std::uint32_t maxPixelsPerDispatch = 0;
-    std::uint32_t maxSamplesPerLane = 0;  ///< in one dispatch, over all pixels that a lane takes
+    std::uint32_t maxPixelsPerDispatch = 0;   ///< or light paths
+    std::uint32_t maxSamplesPerLane = 0;      ///< in one dispatch, over all pixels that a lane takes
+    std::uint32_t filmBandPixels = 0;         ///< of one buffer of the film that light paths add to
+    bool noInt64Atomics = false;
 };
 
 struct RenderStatistics {
@@ -48,8 +51,8 @@ struct RenderStatistics {
     double longestDispatchSeconds = 0.0;  ///< by timestamps
     std::uint64_t dispatches = 0;
     std::uint64_t dispatchesCutShort = 0;  ///< thrown away and traced again in smaller parts
-    std::uint64_t samples = 0;             ///< pixel samples taken
-    std::uint64_t cameraRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
+    std::uint64_t samples = 0;             ///< pixel samples taken, or light paths
+    std::uint64_t cameraRays = 0, lightRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
     std::uint64_t nonFiniteSamples = 0;  ///< dropped; 0 unless something is wrong
     bool filmOverflowed = false;         ///< some sum did not fit 64 bits and was clamped
     std::uint64_t deviceBytes = 0;       ///< peak
@@ -72,9 +75,9 @@ struct RenderOutput {
     RenderStatistics statistics;
 };
 
-/// Path-traces the scene. Throws UsageError if the direct light is asked for in closed form where there is
-/// none. Same scene, settings, seed and device give the same bits. Throws MachineError naming the stage and
-/// the driver if the device fails.
+/// Renders the scene with its integrator. Throws UsageError if the direct light is asked for in closed form
+/// where there is none. Same scene, settings, seed and device give the same bits. Throws MachineError naming
+/// the stage and the driver if the device fails.
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
 
 }  // namespace duolux

@@ -53,12 +53,18 @@ struct Camera {
 
 enum class Sampler : std::uint8_t { kSobol, kIndependent };
 
+enum class Integrator : std::uint8_t {
+    kPath,  ///< gathering: paths from the camera
+    kLight  ///< shooting: paths from the emitters
+};
+
 struct RenderSettings {
     std::uint32_t width = 512, height = 512;  ///< pixels, 1..16384
-    std::uint32_t spp = 64;                   ///< samples per pixel, 1..2^24
+    std::uint32_t spp = 64;                   ///< samples, or light paths, per pixel, 1..2^24
     std::uint32_t bounces = 16;               ///< largest number of scattering events on a path, 0..65535
     std::uint32_t seed = 1;
     Sampler sampler = Sampler::kSobol;
+    Integrator integrator = Integrator::kPath;
 };
 
 /// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera

@@ -73,6 +73,9 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical) {
     const auto features =
         physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     if (!features.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout) return "scalarBlockLayout";
+    if (!features.get<vk::PhysicalDeviceFeatures2>().features.shaderStorageBufferArrayDynamicIndexing) {
+        return "shaderStorageBufferArrayDynamicIndexing";
+    }
     const auto subgroup =
         physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()
             .get<vk::PhysicalDeviceSubgroupProperties>();
@@ -110,6 +113,10 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
             info.memoryBytes = std::max<std::uint64_t>(info.memoryBytes, memory.memoryHeaps[i].size);
         }
     }
+    const auto features =
+        physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    info.int64Atomics = features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
+                        features.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics;
     info.unusable = missingFeature(physical);
     return info;
 }
@@ -139,7 +146,10 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
     const vk::DeviceQueueCreateInfo queue({}, queueFamily, 1, &priority);
     vk::PhysicalDeviceVulkan12Features features12;
     features12.scalarBlockLayout = VK_TRUE;
-    const vk::PhysicalDeviceFeatures2 features({}, &features12);
+    features12.shaderBufferInt64Atomics = info.int64Atomics;
+    vk::PhysicalDeviceFeatures2 features({}, &features12);
+    features.features.shaderStorageBufferArrayDynamicIndexing = VK_TRUE;
+    features.features.shaderInt64 = info.int64Atomics;
     vk::DeviceCreateInfo create({}, queue);
     create.setPNext(&features);
     try {

@@ -21,6 +21,7 @@ struct DeviceInfo {
     std::uint32_t subgroupSize = 0;
     std::uint64_t maxStorageBufferRange = 0;  ///< bytes
     std::uint64_t maxTexelBufferElements = 0;
+    bool int64Atomics = false;      ///< 64-bit integers and atomics on them in storage buffers
     std::uint64_t memoryBytes = 0;  ///< of the largest device-local heap
     std::string unusable;           ///< empty, or which required feature is missing
 };

@@ -31,8 +31,12 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
         std::vector<vk::DescriptorPoolSize> sizes;
         for (const Binding& b : bindings) {
             const vk::DescriptorType type = descriptorType(b.buffer->use());
-            layoutBindings.emplace_back(b.binding, type, 1, vk::ShaderStageFlagBits::eCompute);
             sizes.emplace_back(type, 1);
+            if (!layoutBindings.empty() && layoutBindings.back().binding == b.binding) {
+                ++layoutBindings.back().descriptorCount;
+            } else {
+                layoutBindings.emplace_back(b.binding, type, 1, vk::ShaderStageFlagBits::eCompute);
+            }
         }
         setLayout_ =
             vk::raii::DescriptorSetLayout(handle, vk::DescriptorSetLayoutCreateInfo({}, layoutBindings));
@@ -46,11 +50,14 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
         pool_ = vk::raii::DescriptorPool(handle, vk::DescriptorPoolCreateInfo(freeable, 1, sizes));
         set_ =
             std::move(vk::raii::DescriptorSets(handle, vk::DescriptorSetAllocateInfo(*pool_, setLayout))[0]);
-        for (const Binding& b : bindings) {
+        std::uint32_t element = 0;
+        for (std::size_t i = 0; i < bindings.size(); ++i) {
+            const Binding& b = bindings[i];
+            element = i > 0 && bindings[i - 1].binding == b.binding ? element + 1 : 0;
             const vk::DescriptorType type = descriptorType(b.buffer->use());
             const vk::DescriptorBufferInfo info(b.buffer->handle(), 0, VK_WHOLE_SIZE);
             const vk::BufferView view = b.buffer->view();
-            vk::WriteDescriptorSet write(*set_, b.binding, 0, 1, type);
+            vk::WriteDescriptorSet write(*set_, b.binding, element, 1, type);
             if (b.buffer->use() == BufferUse::kTexels) {
                 write.setPTexelBufferView(&view);
             } else {

@@ -12,7 +12,8 @@
 
 namespace duolux {
 
-/// What a kernel binds: buffers by binding number, all in set 0.
+/// What a kernel binds: buffers by binding number, all in set 0. Neighbours in a list with the same number
+/// are the elements of an array.
 struct Binding {
     std::uint32_t binding;
     const Buffer* buffer;

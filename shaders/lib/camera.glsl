@@ -11,4 +11,37 @@ vec3 cameraDirection(PathParams params, vec2 position) {
     return normalize(params.cameraForward + params.cameraRight * ndc.x - params.cameraUp * ndc.y);
 }
 
+// How a point is seen. Every camera answers this: another than a pinhole would take two random numbers for the point on
+// its lens, and divide by their density.
+struct CameraConnection {
+    bool visible;      // within the image
+    uint pixel;
+    vec3 direction;    // unit, from the point to the camera
+    float distance;
+    // Radiance that arrives at the camera per unit of solid angle, as a part of the image's mean: the importance W_e of the
+    // pixel (box filter, per unit of image area) divided by the number of pixels. Steradian^-1.
+    float importance;
+};
+
+CameraConnection connectToCamera(PathParams params, vec3 point) {
+    vec3 offset = params.cameraPosition - point;
+    CameraConnection c;
+    c.distance = length(offset);
+    c.direction = offset / c.distance;
+    float depth = -dot(offset, params.cameraForward);
+    float cosine = depth / c.distance;
+    vec2 ndc = -vec2(dot(offset, params.cameraRight) / dot(params.cameraRight, params.cameraRight),
+                     dot(offset, params.cameraUp) / dot(params.cameraUp, params.cameraUp)) / depth;
+    vec2 position = vec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * vec2(params.width, params.height);
+    // Not by clamping: a point beyond the edge belongs to no pixel.
+    c.visible = depth > 0.0 && position.x >= 0.0 && position.y >= 0.0 && position.x < float(int(params.width)) &&
+                position.y < float(int(params.height));
+    uvec2 cell = c.visible ? uvec2(ivec2(position)) : uvec2(0u);
+    c.pixel = cell.y * params.width + cell.x;
+    // A patch of the image plane at distance 1 that is seen under the angle of this cosine has cos^3 times its area in
+    // solid angle.
+    c.importance = 1.0 / (params.imageArea * cosine * cosine * cosine);
+    return c;
+}
+
 #endif

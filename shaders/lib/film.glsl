@@ -5,6 +5,9 @@
 // One sample of one channel holds less than this many quanta: 2^56.
 const float kFilmLargest = 72057594037927936.0;
 
+// Radiance beyond this is an error, not light.
+const float kLargestRadiance = 1e30;
+
 // One radiance value >= 0 in quanta, clamped to the largest.
 uvec2 filmQuantise(float value, float inverseQuantum) {
     float scaled = min(value * inverseQuantum, kFilmLargest);
@@ -17,6 +20,13 @@ uvec2 filmQuantise(float value, float inverseQuantum) {
 uvec2 filmAdd(uvec2 sum, uvec2 term) {
     uint low = sum.x + term.x;
     return uvec2(low, sum.y + term.y + (low < term.x ? 1u : 0u));
+}
+
+// A value of either sign; the sum is a two's complement number.
+uvec2 filmAddSigned(uvec2 sum, float value, float inverseQuantum) {
+    uvec2 term = filmQuantise(abs(value), inverseQuantum);
+    uvec2 negated = uvec2(~term.x + 1u, ~term.y + (term.x == 0u ? 1u : 0u));
+    return filmAdd(sum, value < 0.0 ? negated : term);
 }
 
 // Three channels of one component.

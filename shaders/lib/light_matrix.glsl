@@ -34,6 +34,8 @@ Light lightApply(LightMatrix a, Light l) {
 
 LightMatrix lightScale(LightMatrix a, vec3 s) { return LightMatrix(a.m00 * s, a.m01 * s, a.m10 * s, a.m11 * s); }
 
+Light lightScale(Light l, vec3 s) { return Light(l.invisible * s, l.visible * s); }
+
 float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 // How much importance a matrix carries, its rows weighted by rowWeight: the largest channel.

@@ -55,6 +55,10 @@ LightSample sampleLight(uint lightCount, uvec2 u) {
     return LightSample(position, normal, light.material, light.positionError);
 }
 
+// The flux (W) that one particle from an emitter's side carries if its point was picked by sampleLight, its side evenly
+// among `sides`, and its direction in proportion to the cosine: pi E over the density of the point.
+float emittedFlux(float pdfArea, float sides) { return kPi * sides / pdfArea; }
+
 // Density per steradian, at a point `distance` away, of picking a point with density pdfArea per unit area.
 float pdfAreaToSolidAngle(float pdfArea, float distanceSquared, float cosAtLight) {
     return pdfArea * distanceSquared / max(abs(cosAtLight), 1e-12);

@@ -6,8 +6,11 @@
 #include "shaders/lib/sobol.glsl"
 #include "shaders/shared/path_layout.h"
 
-// What a pair of numbers is for; with the vertex it makes the dimension.
+// What a pair of numbers is for; with the vertex it makes the dimension. A light path leaves its emitter in the direction
+// of the dimension that for a path from the camera is the pixel's, and has no light to connect to but its first.
 const uint kDimensionPixel = 0u;
+const uint kDimensionEmission = 0u;
+const uint kDimensionCamera = 1u;
 const uint kDimensionLight = 1u;
 const uint kDimensionDirection = 2u;
 const uint kDimensionChoice = 3u;

@@ -42,9 +42,6 @@ struct SlotSums {
 
 SlotSums emptySums() { return SlotSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
 
-// Radiance beyond this is an error, not light.
-const float kLargestRadiance = 1e30;
-
 void addSample(inout SlotSums sums, Gathered gathered, float inverseQuantum) {
     vec3 total = gathered.light.invisible + gathered.light.visible;
     float sum = total.x + total.y + total.z;

@@ -26,6 +26,16 @@ SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 no
     return point;
 }
 
+// What gathering does at a point with a shading normal is |wi . Ns| in place of |wi . Ng|, wi towards the light. The adjoint
+// of that is not the same with the roles of the directions exchanged: a particle that comes in from wi is scattered by
+// f |wi . Ns| / |wi . Ng|, then by the cosine to the geometric normal (Veach, "Robust Monte Carlo Methods for Light
+// Transport Simulation", 1997, section 5.3). Zero where the two normals see wi on different sides.
+float shadingAdjoint(SurfacePoint point, vec3 wi) {
+    float cosShading = dot(point.shadingNormal, wi);
+    float cosGeometric = dot(point.geometricNormal, wi);
+    return cosShading > 0.0 && cosGeometric > 0.0 ? cosShading / cosGeometric : 0.0;
+}
+
 // A direction in the frame whose z axis is `normal`, unit vectors both.
 vec3 toFrame(vec3 normal, vec3 direction) {
     vec3 tangent, bitangent;

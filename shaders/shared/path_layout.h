@@ -1,4 +1,4 @@
-// Parameters, bindings and records of the path-tracing kernel, shared by C++ and GLSL (scalar block layout).
+// Parameters, bindings and records of the path-tracing kernel (and in part of the light-tracing one), shared by C++ and GLSL (scalar block layout).
 #ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 
@@ -73,6 +73,7 @@ struct PathParams {
     uint emitterRoot;    // node index of the root of the tree over emitters
     vec3 emitterLower;   // their bounds, widened a little
     vec3 emitterUpper;
+    float imageArea;     // of the image plane at distance 1
 };
 
 struct DispatchParams {
@@ -118,7 +119,7 @@ DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 #ifdef __cplusplus
 static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
 static_assert(offsetof(PathParams, opaque) == 64 && offsetof(PathParams, rowWeight) == 160);
-static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 212);
+static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 216);
 
 struct DeviceMaterial {
     vec3 diffuse;

@@ -89,6 +89,8 @@ TEST_P(Cornell, MatchesReference) {
     if (const auto others = renderOtherEstimator(cornell.scene, 128, 16, renders)) {
         expectAgreement(cornell.name + std::string("OtherEstimator"), *others, expected);
     }
+    expectAgreement(cornell.name + std::string("Light"), renderByLight(cornell.scene, 128, 16), expected,
+                    {.lightPaths = true});
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Cornell, testing::ValuesIn(cornellCases()),

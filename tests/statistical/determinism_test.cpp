@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "host/base/error.h"
 #include "host/render/render.h"
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
@@ -35,21 +36,30 @@ bool sameBits(const Film& a, const Film& b) {
         return std::ranges::equal(p.invisible, q.invisible) && std::ranges::equal(p.visible, q.visible);
     };
     return a.quantum() == b.quantum() && a.totalSamples() == b.totalSamples() &&
-           std::ranges::equal(a.sums(), b.sums(), equal);
+           a.lightPaths() == b.lightPaths() && std::ranges::equal(a.sums(), b.sums(), equal) &&
+           std::ranges::equal(a.lightSums(), b.lightSums(), equal);
+}
+
+Scene byLight(Scene scene) {
+    scene.render.integrator = Integrator::kLight;
+    return scene;
 }
 
 TEST(Determinism, SameSeedSameBits) {
-    EXPECT_TRUE(sameBits(filmOf(scene()), filmOf(scene())));
-    Scene independent = scene();
-    independent.render.sampler = Sampler::kIndependent;
-    EXPECT_TRUE(sameBits(filmOf(independent), filmOf(independent)));
+    for (Scene same : {scene(), byLight(scene())}) {
+        EXPECT_TRUE(sameBits(filmOf(same), filmOf(same)));
+        same.render.sampler = Sampler::kIndependent;
+        EXPECT_TRUE(sameBits(filmOf(same), filmOf(same)));
+    }
 }
 
 TEST(Determinism, SeedsAndSamplersDiffer) {
-    EXPECT_FALSE(sameBits(filmOf(scene(5)), filmOf(scene(6))));
-    Scene independent = scene(5);
-    independent.render.sampler = Sampler::kIndependent;
-    EXPECT_FALSE(sameBits(filmOf(scene(5)), filmOf(independent)));
+    for (const auto& variant : {+[](Scene s) { return s; }, &byLight}) {
+        EXPECT_FALSE(sameBits(filmOf(variant(scene(5))), filmOf(variant(scene(6)))));
+        Scene independent = variant(scene(5));
+        independent.render.sampler = Sampler::kIndependent;
+        EXPECT_FALSE(sameBits(filmOf(variant(scene(5))), filmOf(independent)));
+    }
 }
 
 /// Samples and pixels of a dispatch, samples of a lane; 0: the renderer's choice.
@@ -66,6 +76,8 @@ TEST_P(Split, AnySplitGivesTheSameBits) {
     control.maxPixelsPerDispatch = GetParam().pixels;
     control.maxSamplesPerLane = GetParam().lane;
     EXPECT_TRUE(sameBits(whole, filmOf(scene(), control)));
+    static const Film wholeByLight = filmOf(byLight(scene()));
+    EXPECT_TRUE(sameBits(wholeByLight, filmOf(byLight(scene()), control)));
 }
 
 // The picture has 247 pixels of 22 samples.
@@ -80,6 +92,49 @@ INSTANTIATE_TEST_SUITE_P(All, Split,
                                     std::to_string(test.param.pixels) + "Lane" +
                                     std::to_string(test.param.lane);
                          });
+
+TEST(Determinism, TheFilmOfLightPathsIsTheSameInAnyBuffers) {
+    const Film whole = filmOf(byLight(scene()));
+    RenderControl control;
+    control.noInt64Atomics = true;
+    EXPECT_TRUE(sameBits(whole, filmOf(byLight(scene()), control)));
+    for (const std::uint32_t band : {246u, 100u, 31u}) {  // two, three and all eight buffers
+        control.filmBandPixels = band;
+        control.noInt64Atomics = false;
+        EXPECT_TRUE(sameBits(whole, filmOf(byLight(scene()), control))) << band;
+        control.noInt64Atomics = true;
+        EXPECT_TRUE(sameBits(whole, filmOf(byLight(scene()), control))) << band;
+    }
+    control.filmBandPixels = 30;
+    EXPECT_THROW(filmOf(byLight(scene()), control), MachineError);
+}
+
+TEST(Determinism, LightPathsOfManyCrossingsAreWhole) {
+    // Panes that pass and scatter: particles meet hundreds of surfaces.
+    Scene stack = byLight(stackedPanesCase(100).scene);
+    stack.camera.vfov = 60.0f;
+    stack.render.width = stack.render.height = 32;
+    stack.render.spp = 24;
+    RenderControl single;
+    single.maxSamplesPerLane = 1;
+    RenderControl parts;
+    parts.maxPixelsPerDispatch = 1024;
+    const RenderOutput reference = render(device(), stack, single);
+    EXPECT_EQ(reference.statistics.dispatchesCutShort, 0u);
+    EXPECT_EQ(reference.film.lightPaths(), 32u * 32u * 24u);
+    EXPECT_GT(reference.statistics.meanRadiance, 0.0);
+    for (const RenderControl& control : {RenderControl{}, parts}) {
+        const RenderOutput whole = render(device(), stack, control);
+        if (device().info().driver.find("llvmpipe Mesa 22.") != std::string::npos) {
+            EXPECT_GT(whole.statistics.dispatchesCutShort, 0u)
+                << "the case no longer reaches lavapipe's limit";
+        }
+        EXPECT_TRUE(sameBits(whole.film, reference.film));
+        EXPECT_EQ(whole.statistics.bounceRays, reference.statistics.bounceRays);
+        EXPECT_EQ(whole.statistics.shadowRays, reference.statistics.shadowRays);
+        EXPECT_EQ(whole.statistics.lastBounceRadiance, reference.statistics.lastBounceRadiance);
+    }
+}
 
 TEST(Determinism, PathsOfManyCrossingsAreWhole) {
     // A hundred surfaces a ray. Drivers that end long loops without a word must not end these: what was cut
@@ -139,6 +194,12 @@ TEST(Determinism, ATimeLimitLeavesNoPixelWithoutSample) {
     EXPECT_TRUE(output.statistics.stopped);
     for (std::uint32_t pixel = 0; pixel < 32 * 32; ++pixel)
         ASSERT_GE(output.film.samplesOf(pixel), 1u) << pixel;
+
+    const RenderOutput light = render(device(), byLight(stack), control);
+    EXPECT_TRUE(light.statistics.stopped);
+    EXPECT_GE(light.film.lightPaths(), 32u * 32u);
+    EXPECT_LT(light.film.lightPaths(), 32u * 32u * 100'000u);
+    EXPECT_EQ(light.film.lightPaths(), light.statistics.samples);
 }
 
 TEST(Determinism, ARenderLeavesNothingBehindOnTheDevice) {

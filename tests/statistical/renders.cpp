@@ -32,7 +32,9 @@ Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::ui
         const RenderOutput output = render(device(), scene, control);
         EXPECT_EQ(output.statistics.nonFiniteSamples, 0u);
         EXPECT_FALSE(output.film.overflowed());
-        EXPECT_EQ(output.film.totalSamples(), std::uint64_t{scene.render.width} * scene.render.height * spp);
+        EXPECT_EQ(scene.render.integrator == Integrator::kLight ? output.film.lightPaths()
+                                                                : output.film.totalSamples(),
+                  std::uint64_t{scene.render.width} * scene.render.height * spp);
         renders.images.push_back(output.film.resolve());
         renders.directLightInClosedForm = output.statistics.directLightInClosedForm;
         renders.quantum = static_cast<double>(output.film.quantum());
@@ -51,6 +53,36 @@ std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t sp
     } catch (const UsageError&) {
         return std::nullopt;
     }
+}
+
+Renders renderByLight(Scene scene, std::uint32_t spp, std::uint32_t seeds) {
+    scene.render.integrator = Integrator::kLight;
+    return renderSeeds(std::move(scene), spp, seeds);
+}
+
+reference::Estimates estimatesOf(const Renders& renders) {
+    const RadianceImage& first = renders.images.front();
+    const auto count = static_cast<double>(renders.images.size());
+    reference::Estimates estimates{
+        first.width, first.height, static_cast<std::uint32_t>(renders.images.size()), {}};
+    estimates.pixels.resize(first.visible.size());
+    for (std::size_t pixel = 0; pixel < estimates.pixels.size(); ++pixel) {
+        for (int component = 0; component < 2; ++component) {
+            for (int channel = 0; channel < 3; ++channel) {
+                const auto value = [&](const RadianceImage& image) {
+                    return static_cast<double>(
+                        (component == 0 ? image.invisible : image.visible)[pixel][channel]);
+                };
+                double& mean = estimates.pixels[pixel].mean[component][channel];
+                double& variance = estimates.pixels[pixel].variance[component][channel];
+                for (const RadianceImage& image : renders.images)
+                    mean += value(image) / count;
+                for (const RadianceImage& image : renders.images)
+                    variance += (value(image) - mean) * (value(image) - mean) / (count * (count - 1.0));
+            }
+        }
+    }
+    return estimates;
 }
 
 void expectAgreement(const std::string& name, const Renders& renders, const reference::Estimates& expected,

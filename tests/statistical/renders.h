@@ -28,6 +28,12 @@ Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::ui
 std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t spp, std::uint32_t seeds,
                                             const Renders& renders);
 
+/// The same by light paths.
+Renders renderByLight(Scene scene, std::uint32_t spp, std::uint32_t seeds);
+
+/// Means over the renders, with their variances.
+reference::Estimates estimatesOf(const Renders& renders);
+
 /// Fails the running test if the renders disagree with the expectation, and then leaves pictures of both and
 /// of the Welch statistic in the build directory, under artefacts/<name>.
 void expectAgreement(const std::string& name, const Renders& renders, const reference::Estimates& expected,

@@ -18,20 +18,40 @@ constexpr const char* kComponent[2] = {"invisible", "visible"};
 constexpr std::size_t kEnoughForPixels = 10;
 constexpr char kChannel[3] = {'r', 'g', 'b'};
 
-/// Mean over the renders of one value of one pixel.
-Mean meanOver(std::span<const RadianceImage> renders, int component, std::size_t pixel, int channel) {
+/// Pixels [x0, x1) x [y0, y1).
+struct Block {
+    std::uint32_t x0, y0, x1, y1;
+};
+
+struct RenderedMean {
+    Mean mean;
+    std::size_t reached = 0;  ///< renders in which it is not 0
+};
+
+/// Mean over the renders of one value of a block's pixels.
+RenderedMean meanOver(std::span<const RadianceImage> renders, int component, const Block& block,
+                      int channel) {
     const auto count = static_cast<double>(renders.size());
+    const double pixels = static_cast<double>(block.x1 - block.x0) * (block.y1 - block.y0);
+    std::vector<double> values;
+    std::size_t reached = 0;
     double sum = 0.0;
-    const auto value = [&](const RadianceImage& image) {
-        return static_cast<double>((component == 0 ? image.invisible : image.visible)[pixel][channel]);
-    };
-    for (const RadianceImage& image : renders)
-        sum += value(image);
+    for (const RadianceImage& image : renders) {
+        const std::vector<glm::vec3>& radiance = component == 0 ? image.invisible : image.visible;
+        double total = 0.0;
+        for (std::uint32_t y = block.y0; y < block.y1; ++y) {
+            for (std::uint32_t x = block.x0; x < block.x1; ++x)
+                total += static_cast<double>(radiance[std::size_t{y} * image.width + x][channel]);
+        }
+        values.push_back(total / pixels);
+        sum += values.back();
+        reached += values.back() != 0.0 ? 1 : 0;
+    }
     const double mean = sum / count;
     double squares = 0.0;
-    for (const RadianceImage& image : renders)
-        squares += (value(image) - mean) * (value(image) - mean);
-    return {mean, squares / (count * (count - 1.0)), count - 1.0};
+    for (double value : values)
+        squares += (value - mean) * (value - mean);
+    return {{mean, squares / (count * (count - 1.0)), count - 1.0}, reached};
 }
 
 /// Mean over pixels of independent means, with Satterthwaite's degrees of freedom.
@@ -55,31 +75,56 @@ class BlockMean {
 struct Values {
     std::uint32_t width, height;
     std::vector<Mean> rendered, expected;  ///< per pixel, component and channel
+    double varianceToMean[2][3] = {};      ///< of the rendered pixels, over the image
 
     static std::size_t at(std::size_t pixel, int component, int channel) {
         return pixel * 6 + static_cast<std::size_t>(component * 3 + channel);
     }
 };
 
-Values collect(std::span<const RadianceImage> renders, const reference::Estimates& expected) {
+/// What few light paths reach shows too little variance, or none; it has as much, at least, as what is
+/// expected there has on the average of the image.
+Mean withVarianceOfImage(RenderedMean rendered, double expected, double varianceToMean) {
+    if (rendered.reached < kEnoughForPixels)
+        rendered.mean.variance = std::max(rendered.mean.variance, expected * varianceToMean);
+    return rendered.mean;
+}
+
+Values collect(std::span<const RadianceImage> renders, const reference::Estimates& expected,
+               const Criterion& criterion) {
     Values values{expected.width, expected.height, {}, {}};
     const double degrees = std::max(1.0, expected.samples - 1.0);
-    for (std::size_t pixel = 0; pixel < expected.pixels.size(); ++pixel) {
+    std::vector<RenderedMean> rendered;
+    double means[2][3] = {};
+    for (std::uint32_t pixel = 0; pixel < expected.pixels.size(); ++pixel) {
         const reference::Estimate& e = expected.pixels[pixel];
+        const std::uint32_t x = pixel % expected.width, y = pixel / expected.width;
         for (int component = 0; component < 2; ++component) {
             for (int channel = 0; channel < 3; ++channel) {
-                values.rendered.push_back(meanOver(renders, component, pixel, channel));
+                rendered.push_back(meanOver(renders, component, {x, y, x + 1, y + 1}, channel));
+                values.varianceToMean[component][channel] += rendered.back().mean.variance;
+                means[component][channel] += rendered.back().mean.value;
                 values.expected.push_back(
                     {e.mean[component][channel], e.variance[component][channel], degrees});
             }
         }
     }
+    for (int component = 0; component < 2; ++component) {
+        for (int channel = 0; channel < 3; ++channel)
+            values.varianceToMean[component][channel] /= std::max(means[component][channel], 1e-30);
+    }
+    for (std::size_t i = 0; i < rendered.size(); ++i) {
+        const double ratio = values.varianceToMean[i % 6 / 3][i % 3];
+        values.rendered.push_back(criterion.lightPaths
+                                      ? withVarianceOfImage(rendered[i], values.expected[i].value, ratio)
+                                      : rendered[i].mean);
+    }
     return values;
 }
 
 /// Tests all blocks of `size` pixels a side, and notes the statistics in `z` if those are pixels.
-void judgeScale(const Values& values, std::uint32_t size, double alpha, const Criterion& criterion,
-                Agreement& agreement) {
+void judgeScale(const Values& values, std::span<const RadianceImage> renders, std::uint32_t size,
+                double alpha, const Criterion& criterion, Agreement& agreement) {
     const std::uint32_t across = (values.width + size - 1) / size, down = (values.height + size - 1) / size;
     const double level = sidakLevel(alpha, std::size_t{across} * down * 6);
     Welch worst;
@@ -87,19 +132,25 @@ void judgeScale(const Values& values, std::uint32_t size, double alpha, const Cr
     std::size_t failed = 0;
     for (std::uint32_t block = 0; block < across * down; ++block) {
         const std::uint32_t x0 = block % across * size, y0 = block / across * size;
-        const std::uint32_t x1 = std::min(x0 + size, values.width), y1 = std::min(y0 + size, values.height);
+        const Block pixels{x0, y0, std::min(x0 + size, values.width), std::min(y0 + size, values.height)};
         for (int component = 0; component < 2; ++component) {
             for (int channel = 0; channel < 3; ++channel) {
                 BlockMean rendered, expected;
-                for (std::uint32_t y = y0; y < y1; ++y) {
-                    for (std::uint32_t x = x0; x < x1; ++x) {
+                for (std::uint32_t y = pixels.y0; y < pixels.y1; ++y) {
+                    for (std::uint32_t x = pixels.x0; x < pixels.x1; ++x) {
                         const std::size_t i =
                             Values::at(std::size_t{y} * values.width + x, component, channel);
                         rendered.add(values.rendered[i]);
                         expected.add(values.expected[i]);
                     }
                 }
-                const Mean a = rendered.mean(), b = expected.mean();
+                const Mean b = expected.mean();
+                Mean a = rendered.mean();
+                if (criterion.lightPaths && size > 1) {
+                    const double count = static_cast<double>(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0);
+                    a = withVarianceOfImage(meanOver(renders, component, pixels, channel), b.value,
+                                            values.varianceToMean[component][channel] / count);
+                }
                 const Welch test = welch(a, b, criterion.absolute + criterion.relative * std::abs(b.value));
                 if (size == 1) {
                     auto& map = component == 0 ? agreement.z.invisible : agreement.z.visible;
@@ -159,7 +210,7 @@ void judgeScatter(const Values& values, const Criterion& criterion, Agreement& a
 Agreement judge(std::span<const RadianceImage> renders, const reference::Estimates& expected,
                 const Criterion& criterion) {
     assert(renders.size() >= 2);
-    const Values values = collect(renders, expected);
+    const Values values = collect(renders, expected, criterion);
     Agreement agreement;
     RadianceImage blank{expected.width, expected.height, {}, {}};
     blank.invisible.resize(expected.pixels.size());
@@ -176,11 +227,11 @@ Agreement judge(std::span<const RadianceImage> renders, const reference::Estimat
     }
     const std::uint32_t whole = std::max(expected.width, expected.height);
     if (renders.size() >= kEnoughForPixels) {
-        judgeScale(values, 1, criterion.alpha / 4, criterion, agreement);
+        judgeScale(values, renders, 1, criterion.alpha / 4, criterion, agreement);
         judgeScatter(values, criterion, agreement);
     }
     for (std::uint32_t size : {4u, 8u, whole})
-        judgeScale(values, size, criterion.alpha / 4, criterion, agreement);
+        judgeScale(values, renders, size, criterion.alpha / 4, criterion, agreement);
     return agreement;
 }
 

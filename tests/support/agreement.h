@@ -13,6 +13,11 @@ struct Criterion {
     double alpha = 1e-4;     ///< probability that any test of the family fails though the means agree
     double relative = 1e-5;  ///< of the expected value: what is not statistical, such as rounding
     double absolute = 1e-9;  ///< radiance
+    /// The renders are by light paths, each of which may reach many pixels: these are not independent, and
+    /// blocks are judged by how the renders differ in the mean over the block. Where fewer than 10 renders
+    /// have any light at all the variance is at least what is expected there times the image's ratio of
+    /// variance to mean.
+    bool lightPaths = false;
 };
 
 /// The verdict on a set of images.
@@ -26,8 +31,7 @@ struct Agreement {
 /// Judges independent renders (one a seed, at least 2) of a scene whose expectation is known, exactly or with
 /// variances. Welch's t per component and channel on blocks of 4 and 8 pixels a side and on the whole image,
 /// and with 10 renders or more on every pixel: noise averages out as the blocks grow, a bias does not. Each
-/// scale gets a quarter of alpha, divided by Sidak's rule among its tests. Above the scale of a pixel, pixels
-/// are taken as independent of each other. With 10 renders or more the mean square of t over all pixels is
+/// scale gets a quarter of alpha, divided by Sidak's rule among its tests. With 10 renders or more the mean square of t over all pixels is
 /// tested too.
 Agreement judge(std::span<const RadianceImage> renders, const reference::Estimates& expected,
                 const Criterion& criterion = {});

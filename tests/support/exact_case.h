@@ -16,6 +16,7 @@ struct ExactCase {
     /// Which light search has a finite variance here; only the reference needs to be told.
     reference::LightSearch search = reference::LightSearch::kDirection;
     double relative = 1e-5;  ///< error of the closed form and of single precision
+    bool onePoint = false;   ///< every pixel sees the same point, which no light path meets
 };
 
 /// Closed sphere seen from inside, uniform emission: L = sum over k of (albedo O)^k E.

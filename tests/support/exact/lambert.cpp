@@ -60,24 +60,44 @@ ExactCase twoEmitters() {
     return scene.finish("LambertTwoEmitters", 1, scene.reflected(irradiance));
 }
 
-/// A whole image of a floor, so that a mirrored, rotated or shifted camera shows.
-ExactCase floorImage() {
+struct Floor {
+    std::string name;
+    Reflectance reflectance;
+    /// Panes between the floor and both the lamp and the camera, from the top; they absorb what they do not
+    /// pass.
+    std::vector<LightMatrix> panes;
+};
+
+/// A whole image of a floor, so that a mirrored, rotated or shifted camera shows. With panes the camera sees
+/// T_1 T_2 ... albedo / pi O ... T_2 T_1 E times Lambert's formula.
+ExactCase floorImage(const Floor& setup) {
     constexpr std::uint32_t kSize = 24;
     SceneBuilder builder;
     Material floor, lamp;
     floor.name = "floor";
     floor.diffuse = {0.9f, 0.6f, 0.3f};
     lamp.name = "lamp";
-    lamp.emission = {{4.0f, 4.0f, 4.0f}, glm::vec3(0.0f), Sides::kFront};
+    lamp.emission = {{4.0f, 3.0f, 4.0f}, {0.0f, 1.0f, 0.0f}, Sides::kFront};
     const std::uint32_t floorIndex = builder.add(floor), lampIndex = builder.add(lamp);
     builder.quad({-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}, floorIndex);
     const std::vector<Vec3> polygon = downwardRectangle(-2.5, -1.5, 0.5, 2.5, 1.2);
     builder.quad(polygon[0], polygon[1], polygon[2], polygon[3], lampIndex);
+    ChannelMatrix down = reference::identityPerChannel(), up = reference::identityPerChannel();
+    float height = 0.9f;
+    for (const LightMatrix& pane : setup.panes) {
+        const std::uint32_t index = builder.add(filter("pane", pane));
+        builder.quad({-9, height, 9}, {9, height, 9}, {9, height, -9}, {-9, height, -9}, index);
+        up = up * reference::channelsOf(pane);
+        down = reference::channelsOf(pane) * down;
+        height -= 0.25f;
+    }
     Scene& scene = builder.scene;
-    scene.reflectance = preset("local");
+    scene.reflectance = setup.reflectance;
     scene.camera = {{1.5f, 1.1f, 3.0f}, {-1.0f, 0.0f, 0.5f}, {0, 1, 0}, 24.0f};
     scene.render.width = scene.render.height = kSize;
     scene.render.bounces = 1;
+    const ChannelMatrix scatter = scaled(floor.diffuse, reference::channelsOf(setup.reflectance.opaque));
+    const ChannelLight seen = (1.0 / std::numbers::pi) * (up * scatter * down * light(lamp.emission));
 
     // Midpoint rule over each pixel's footprint.
     constexpr int kSteps = 24;
@@ -92,11 +112,10 @@ ExactCase floorImage() {
                 const Vec3 point = ray.origin - (ray.origin.y / ray.direction.y) * ray.direction;
                 mean += lambertPolygon(point, Vec3(0, 1, 0), polygon) / (kSteps * kSteps);
             }
-            const ChannelLight visible = {{{0.0, 0.9}, {0.0, 0.6}, {0.0, 0.3}}};
-            expected.pixels.push_back(exactly((4.0 * mean / std::numbers::pi) * visible));
+            expected.pixels.push_back(exactly(mean * seen));
         }
     }
-    return {"LambertFloorImage", scene, expected, reference::LightSearch::kArea, 3e-4};
+    return {setup.name, scene, expected, reference::LightSearch::kArea, 3e-4};
 }
 
 }  // namespace
@@ -125,7 +144,14 @@ std::vector<ExactCase> lambertCases() {
     // An emitter that turns its back is dark.
     add("LambertEmitterTurnedAway", {flat, {square[0], square[3], square[2], square[1]}, kEye, 0.0});
     cases.push_back(twoEmitters());
-    cases.push_back(floorImage());
+    cases.push_back(floorImage({"LambertFloorImage", preset("local"), {}}));
+    const LightMatrix amber{{0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
+    const LightMatrix teal{{0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
+    const Reflectance full{{{0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}},
+                           {}};
+    cases.push_back(floorImage({"LambertFloorAmberTeal", full, {amber, teal}}));
+    cases.push_back(floorImage({"LambertFloorTealAmber", full, {teal, amber}}));
+    cases.push_back(floorImage({"LambertFloorOpaqueToVisible", preset("global"), {matrix(1, 0, 0, 0)}}));
     return cases;
 }
 

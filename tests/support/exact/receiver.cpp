@@ -51,6 +51,7 @@ ExactCase ReceiverScene::finish(std::string name, std::uint32_t bounces, const C
     result.scene.render.bounces = bounces;
     result.search = reference::LightSearch::kArea;
     result.relative = 1e-4;
+    result.onePoint = true;
     return result;
 }
 

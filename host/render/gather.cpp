@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "host/base/error.h"
+#include "host/render/context.h"
+#include "host/render/path_kernel.h"
+#include "host/render/pixel_order.h"
+
+namespace duolux {
+
+namespace {
+
+class Gatherer {
+  public:
+    explicit Gatherer(RenderContext& context)
+        : context_(context), pixels_(pixelOrder(context.film.width(), context.film.height())) {}
+
+    void run() {
+        const auto pipelineStart = RenderContext::Clock::now();
+        const RenderControl& control = context_.control;
+        RenderStatistics& statistics = context_.statistics;
+        const std::uint32_t maxSlots = std::min<std::uint32_t>(
+            static_cast<std::uint32_t>(pixels_.size()),
+            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : kMaxSlots);
+        statistics.directLightInClosedForm = chooseClosedForm();
+        PathKernel kernel(context_.device, context_.deviceScene, context_.scene, pixels_, maxSlots,
+                          statistics.directLightInClosedForm);
+        statistics.pipelineSeconds =
+            std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
+        statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();
+        trace(kernel);
+    }
+
+  private:
+    static constexpr std::uint32_t kMaxSlots = 1u << 18;
+
+    bool chooseClosedForm() const {
+        const bool applies = context_.deviceScene.closedFormApplies;
+        const DirectLight wanted = context_.control.directLight;
+        if (wanted == DirectLight::kClosedForm && !applies) {
+            throw UsageError(fmt::format(
+                "{}: direct light has no closed form here; it needs surfaces that hide nothing (`local`, "
+                "`shadowless`), flat normals, and from 1 to {} emitting triangles",
+                context_.scene.source.string(), kMostClosedFormLights));
+        }
+        // Where light is reflected again and again, direct light is a small part of the noise: on the Cornell
+        // box `shadowless` in closed form has 7 % less variance, and takes 10 % longer.
+        const bool pays = !context_.deviceScene.traits.invisibleScatters;
+        return applies && (wanted == DirectLight::kClosedForm || (pays && wanted == DirectLight::kAuto));
+    }
+
+    void trace(PathKernel& kernel) {
+        const RenderControl& control = context_.control;
+        RenderStatistics& statistics = context_.statistics;
+        const std::uint32_t maxSamples =
+            control.maxSamplesPerDispatch > 0
+                ? std::min(PathKernel::kMaxSamples, control.maxSamplesPerDispatch)
+                : PathKernel::kMaxSamples;
+        Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), context_.scene.render.spp,
+                          kernel.maxSlots(), maxSamples);
+        if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
+        context_.begin();
+        unsigned submitted = 0;
+        unsigned received = 0;
+        bool timeIsUp = false;
+        for (;;) {
+            // Keep two dispatches in flight, so that the device works while the host adds up.
+            while (submitted - received < 2 && !statistics.stopped) {
+                timeIsUp = timeIsUp || context_.timeIsUp();
+                const auto range = schedule.next(context_.secondsPerSample, kernel.laneSamples(), timeIsUp);
+                if (!range) break;
+                kernel.submit(submitted++ % 2, *range);
+            }
+            if (submitted == received) break;
+            if (const auto range = receive(kernel, received++ % 2)) schedule.retry(*range);
+            context_.reportProgress();
+        }
+        statistics.stopped = statistics.samples < context_.samplesTotal();
+        context_.reportProgress();
+    }
+
+    /// Waits for a dispatch and adds up what it has traced; or returns what the driver has cut short, to be
+    /// traced again with a smaller share for each team.
+    std::optional<WorkRange> receive(PathKernel& kernel, unsigned place) {
+        const PathKernel::Results results = kernel.wait(place);
+        context_.received(results.deviceSeconds, results.range.size());
+        if (results.complete) {
+            add(results);
+            return std::nullopt;
+        }
+        // Some drivers end all loops of an invocation after a fixed number of iterations, without a word.
+        // What this happened to is thrown away and traced again.
+        if (results.laneSamples == 1) context_.failCutShort();
+        kernel.limitLaneSamples(results.laneSamples / 2);
+        ++context_.statistics.dispatchesCutShort;
+        return results.range;
+    }
+
+    void add(const PathKernel::Results& results) {
+        RenderStatistics& statistics = context_.statistics;
+        sums_.resize(results.slots.size());
+        for (std::size_t i = 0; i < results.slots.size(); ++i) {
+            const shared::SlotResult& r = results.slots[i];
+            for (std::size_t c = 0; c < 3; ++c) {
+                sums_[i].invisible[c] = signed64(r.invisible[2 * c], r.invisible[2 * c + 1]);
+                sums_[i].visible[c] = signed64(r.visible[2 * c], r.visible[2 * c + 1]);
+            }
+            statistics.nonFiniteSamples += r.nonFinite;
+            statistics.filmOverflowed = statistics.filmOverflowed || r.clamped > 0;
+            statistics.cameraRays += r.cameraRays;
+            statistics.bounceRays += r.bounceRays;
+            statistics.shadowRays += r.shadowRays;
+            statistics.emitterRays += r.emitterRays;
+            context_.lastBounce += static_cast<double>(r.lastBounce);
+            context_.previousBounce += static_cast<double>(r.previousBounce);
+        }
+        const std::span<const std::uint32_t> pixels(pixels_.data() + results.range.firstSlot,
+                                                    results.range.slots);
+        context_.film.add(pixels, sums_, results.range.samples);
+        statistics.samples += results.range.size();
+    }
+
+    RenderContext& context_;
+    std::vector<std::uint32_t> pixels_;
+    std::vector<Film::PixelSum> sums_;
+};
+
+}  // namespace
+
+void gather(RenderContext& context) {
+    Gatherer(context).run();
+}
+
+}  // namespace duolux

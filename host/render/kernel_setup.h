@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "host/gpu/device_scene.h"
+#include "host/render/teams.h"
+#include "host/scene/scene.h"
+#include "host/vk/kernel.h"
+
+namespace duolux {
+
+// What the kernels of both integrators need of a scene.
+
+/// The uniform block, shared::PathParams.
+Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const Scene& scene);
+
+/// The scene's buffers and the uniform block.
+std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer& params);
+
+/// The specialisation constants that both kernels have.
+std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, const Scene& scene,
+                                                const Teams& teams);
+
+/// Paths that a lane takes in one dispatch.
+std::uint32_t chooseLanePaths(const Device& device, const TransportTraits& traits);
+
+}  // namespace duolux

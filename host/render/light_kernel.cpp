@@ -1,0 +1,160 @@
+#include "host/render/light_kernel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "host/base/error.h"
+#include "host/render/kernel_setup.h"
+#include "shaders/embedded.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr std::uint64_t kPixelBytes = sizeof(Film::PixelSum);
+static_assert(kPixelBytes == shared::kFilmSums * 8);
+
+std::uint32_t chooseBandPixels(const Device& device, const Scene& scene, std::uint32_t limit) {
+    const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
+    std::uint64_t most = device.info().maxStorageBufferRange / kPixelBytes;
+    if (limit > 0) most = std::min<std::uint64_t>(most, limit);
+    if (pixels > most * shared::kMaxFilmBands) {
+        throw MachineError(
+            fmt::format("{} ({}): a film of {}x{} pixels for light paths is too large; {} pixels can be "
+                        "bound, or as many "
+                        "as there are with --integrator path",
+                        device.info().name, device.info().driver, scene.render.width, scene.render.height,
+                        most * shared::kMaxFilmBands));
+    }
+    return static_cast<std::uint32_t>(std::min(pixels, most));
+}
+
+std::vector<Buffer> makeFilm(const Device& device, std::uint32_t pixels, std::uint32_t bandPixels) {
+    std::vector<Buffer> bands;
+    for (std::uint32_t first = 0; first < pixels; first += bandPixels) {
+        bands.push_back(Buffer::device(
+            device, BufferUse::kStorage, std::min(bandPixels, pixels - first) * kPixelBytes,
+            vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst, "film"));
+    }
+    return bands;
+}
+
+std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& results, const Teams& teams,
+                                   const std::vector<Buffer>& film) {
+    bindings.push_back({shared::kBindingResults, &results});
+    bindings.push_back({shared::kBindingTeams, &teams.progress()});
+    // All elements of an array are bound, used or not.
+    for (std::size_t i = 0; i < shared::kMaxFilmBands; ++i)
+        bindings.push_back({shared::kBindingFilm, &film[std::min(i, film.size() - 1)]});
+    return bindings;
+}
+
+std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, const Teams& teams,
+                                       std::size_t bands, std::uint32_t bandPixels) {
+    std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene, teams);
+    constants.push_back({shared::kSpecConnection, deviceScene.traits.cameraTransmittance});
+    constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
+    constants.push_back({shared::kSpecBandPixels, bandPixels});
+    return constants;
+}
+
+}  // namespace
+
+LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
+                         std::uint32_t maxPaths, const Limits& limits)
+    : device_(&device),
+      lanePaths_(chooseLanePaths(device, deviceScene.traits)),
+      maxPaths_(maxPaths),
+      pixels_(scene.render.width * scene.render.height),
+      bandPixels_(chooseBandPixels(device, scene, limits.filmBandPixels)),
+      teams_(device, maxPaths),
+      maxLanes_((maxPaths + teams_.lanes() - 1) / teams_.lanes() * teams_.lanes()),
+      params_(uploadParams(device, deviceScene, scene)),
+      results_(
+          Buffer::readback(device, 2 * sizeof(shared::LaneResult) * std::uint64_t{maxLanes_}, "results")),
+      bandRead_(
+          Buffer::readback(device, bandPixels_ * kPixelBytes, "film", vk::BufferUsageFlagBits::eTransferDst)),
+      film_(makeFilm(device, pixels_, bandPixels_)),
+      kernel_(device, "light",
+              device.info().int64Atomics && !limits.noInt64Atomics ? spirv::kLightKernelInt64
+                                                                   : spirv::kLightKernel,
+              lightBindings(sceneBindings(deviceScene, params_), results_, teams_, film_),
+              specialize(deviceScene, scene, teams_, film_.size(), bandPixels_),
+              sizeof(shared::LightDispatch)),
+      commands_{CommandSlot(device), CommandSlot(device)} {
+    clearFilm();
+}
+
+std::uint64_t LightKernel::deviceBytes() const {
+    std::uint64_t bytes =
+        params_.allocated() + results_.allocated() + bandRead_.allocated() + teams_.deviceBytes();
+    for (const Buffer& band : film_)
+        bytes += band.allocated();
+    return bytes;
+}
+
+void LightKernel::submit(unsigned place, const PathRange& range) {
+    assert(range.count > 0 && range.count <= maxPaths_);
+    const std::uint32_t teamPaths = teams_.share(range.count, lanePaths_);
+    const std::uint32_t lanes = (range.count + teamPaths - 1) / teamPaths * teams_.lanes();
+    submitted_[place] = {range, teamPaths, lanes};
+    const shared::LightDispatch push{static_cast<std::uint32_t>(range.first),
+                                     static_cast<std::uint32_t>(range.first >> 32),
+                                     range.count,
+                                     teamPaths,
+                                     place * maxLanes_,
+                                     teams_.firstTeam(place)};
+    commands_[place].submit("tracing light paths", [&](const vk::raii::CommandBuffer& commands) {
+        teams_.record(commands, kernel_, push, place, range.count, teamPaths);
+    });
+}
+
+LightKernel::Results LightKernel::wait(unsigned place) {
+    const double seconds = commands_[place].wait("tracing light paths");
+    results_.invalidate();
+    const auto& [range, teamPaths, lanes] = submitted_[place];
+    const auto* results =
+        reinterpret_cast<const shared::LaneResult*>(results_.mapped()) + std::size_t{place} * maxLanes_;
+    return {range, teamPaths / teams_.lanes(), teams_.complete(place), {results, lanes}, seconds};
+}
+
+std::span<const Film::PixelSum> LightKernel::takeFilm() {
+    sums_.resize(pixels_);
+    std::uint32_t first = 0;
+    for (const Buffer& band : film_) {
+        const std::uint32_t pixels = std::min(bandPixels_, pixels_ - first);
+        const std::uint64_t bytes = pixels * kPixelBytes;
+        runOnce(*device_, "reading the film", [&](const vk::raii::CommandBuffer& commands) {
+            using Stage = vk::PipelineStageFlagBits;
+            using Access = vk::AccessFlagBits;
+            commands.pipelineBarrier(
+                Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
+                vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite,
+                                  Access::eTransferRead | Access::eTransferWrite),
+                {}, {});
+            commands.copyBuffer(band.handle(), bandRead_.handle(), vk::BufferCopy(0, 0, bytes));
+        });
+        bandRead_.invalidate();
+        std::memcpy(sums_.data() + first, bandRead_.mapped(), bytes);
+        first += pixels;
+    }
+    clearFilm();
+    return sums_;
+}
+
+void LightKernel::clearFilm() {
+    runOnce(*device_, "clearing the film", [&](const vk::raii::CommandBuffer& commands) {
+        using Stage = vk::PipelineStageFlagBits;
+        using Access = vk::AccessFlagBits;
+        commands.pipelineBarrier(
+            Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
+            vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferRead, Access::eTransferWrite), {}, {});
+        for (const Buffer& band : film_)
+            commands.fillBuffer(band.handle(), 0, VK_WHOLE_SIZE, 0);
+    });
+}
+
+}  // namespace duolux

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "host/film/film.h"
+#include "host/gpu/device_scene.h"
+#include "host/render/teams.h"
+#include "host/scene/scene.h"
+#include "host/vk/commands.h"
+#include "host/vk/device.h"
+#include "host/vk/kernel.h"
+#include "shaders/shared/light_layout.h"
+
+namespace duolux {
+
+/// Light paths [first, first + count).
+struct PathRange {
+    std::uint64_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// The light-tracing kernel, specialised for a scene, with a film on the device to which it adds.
+class LightKernel {
+  public:
+    /// For tests: what else is chosen by the device. None changes a bit of the image.
+    struct Limits {
+        std::uint32_t filmBandPixels = 0;  ///< 0: as many as the device can bind
+        bool noInt64Atomics = false;
+    };
+
+    /// `maxPaths`: of one dispatch. deviceScene must outlive this. Throws MachineError if the device cannot
+    /// hold a film of the scene's size.
+    LightKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
+                std::uint32_t maxPaths, const Limits& limits);
+
+    std::uint32_t maxPaths() const { return maxPaths_; }
+    std::uint64_t deviceBytes() const;
+
+    /// Paths that a lane takes in one dispatch; see PathKernel::laneSamples.
+    std::uint32_t lanePaths() const { return lanePaths_; }
+    void limitLanePaths(std::uint32_t paths) { lanePaths_ = std::min(lanePaths_, paths); }
+
+    /// Two dispatches may be in flight, in the places 0 and 1. Each adds to the film on the device.
+    void submit(unsigned place, const PathRange& range);
+
+    struct Results {
+        PathRange range;
+        std::uint32_t lanePaths;  ///< the most that a lane had to take
+        bool complete;            ///< no team was cut short by the driver
+        std::span<const shared::LaneResult> lanes;
+        double deviceSeconds;
+    };
+    /// Waits for the dispatch in a place. What is returned is valid until the next submit to it.
+    Results wait(unsigned place);
+
+    /// Takes the film's sums, in quanta, from the device, which begins again at zero. Nothing may be in
+    /// flight.
+    std::span<const Film::PixelSum> takeFilm();
+
+    /// Begins again at zero, whatever has been added.
+    void clearFilm();
+
+  private:
+    struct Submitted {
+        PathRange range;
+        std::uint32_t teamPaths = 0, lanes = 0;
+    };
+
+    const Device* device_;
+    std::uint32_t lanePaths_, maxPaths_, pixels_, bandPixels_;
+    Teams teams_;
+    std::uint32_t maxLanes_;
+    Buffer params_, results_, bandRead_;
+    std::vector<Buffer> film_;
+    Kernel kernel_;
+    std::array<CommandSlot, 2> commands_;
+    std::array<Submitted, 2> submitted_{};
+    std::vector<Film::PixelSum> sums_;
+};
+
+}  // namespace duolux

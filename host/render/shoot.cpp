@@ -1,0 +1,147 @@
+#include <algorithm>
+
+#include "host/render/context.h"
+#include "host/render/light_kernel.h"
+#include "host/render/schedule.h"
+
+namespace duolux {
+
+namespace {
+
+// Light paths are traced in batches of a few dispatches, all of which add to one film on the device. A batch
+// whose dispatches were all complete is taken over into the film of the render; if the driver has cut one
+// short, the batch is forgotten and traced again with smaller shares.
+class Shooter {
+  public:
+    explicit Shooter(RenderContext& context) : context_(context) {}
+
+    void run() {
+        const auto pipelineStart = RenderContext::Clock::now();
+        const RenderControl& control = context_.control;
+        RenderStatistics& statistics = context_.statistics;
+        const std::uint32_t maxPaths =
+            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : kMaxPaths;
+        LightKernel kernel(context_.device, context_.deviceScene, context_.scene, maxPaths,
+                           {control.filmBandPixels, control.noInt64Atomics});
+        if (control.maxSamplesPerLane > 0) kernel.limitLanePaths(control.maxSamplesPerLane);
+        statistics.pipelineSeconds =
+            std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
+        statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();
+        trace(kernel);
+    }
+
+  private:
+    static constexpr std::uint32_t kMaxPaths = 1u << 18;  // of one dispatch
+    static constexpr std::uint32_t kFirstPaths = 2048;    // before any speed is known
+    static constexpr std::uint32_t kMostDispatches = 16;  // of one batch: a second or two
+
+    /// What a batch adds to the statistics.
+    struct Batch {
+        std::uint64_t paths = 0;
+        std::uint64_t nonFinite = 0, lightRays = 0, bounceRays = 0, shadowRays = 0;
+        std::int64_t lastBounce = 0, previousBounce = 0;  // in quanta
+        bool overflowed = false;
+        bool complete = true;
+    };
+
+    void trace(LightKernel& kernel) {
+        RenderStatistics& statistics = context_.statistics;
+        context_.begin();
+        // Where nothing emits every path is a dark one.
+        if (context_.deviceScene.lightCount == 0) {
+            context_.film.addLight({}, context_.samplesTotal());
+            statistics.samples = context_.samplesTotal();
+        }
+        std::uint32_t dispatches = 1;
+        while (statistics.samples < context_.samplesTotal() && !statistics.stopped && !finishEarly()) {
+            const Batch batch = traceBatch(kernel, dispatches);
+            if (batch.complete) {
+                takeOver(kernel, batch);
+                dispatches = std::min(2 * dispatches, kMostDispatches);
+            } else {
+                kernel.clearFilm();
+                dispatches = 1;
+            }
+            context_.reportProgress();
+        }
+        statistics.stopped = statistics.samples < context_.samplesTotal();
+        context_.reportProgress();
+    }
+
+    /// A path per pixel is traced in any case.
+    bool finishEarly() const {
+        return context_.timeIsUp() && context_.statistics.samples >= context_.pixels();
+    }
+
+    std::uint32_t dispatchPaths(const LightKernel& kernel, std::uint64_t left) const {
+        double paths = kFirstPaths;
+        if (context_.secondsPerSample > 0.0)
+            paths = std::max(kDispatchSeconds / context_.secondsPerSample, 64.0);
+        return static_cast<std::uint32_t>(
+            std::min({paths, static_cast<double>(kernel.maxPaths()), static_cast<double>(left)}));
+    }
+
+    Batch traceBatch(LightKernel& kernel, std::uint32_t dispatches) {
+        Batch batch;
+        std::uint64_t next = context_.statistics.samples;
+        unsigned submitted = 0;
+        unsigned received = 0;
+        for (;;) {
+            // Keep two dispatches in flight, so that the device never waits.
+            while (submitted - received < 2 && submitted < dispatches && next < context_.samplesTotal() &&
+                   batch.complete && !(submitted > 0 && finishEarly())) {
+                const PathRange range{next, dispatchPaths(kernel, context_.samplesTotal() - next)};
+                kernel.submit(submitted++ % 2, range);
+                next += range.count;
+            }
+            if (submitted == received) return batch;
+            receive(kernel, received++ % 2, batch);
+        }
+    }
+
+    void receive(LightKernel& kernel, unsigned place, Batch& batch) {
+        const LightKernel::Results results = kernel.wait(place);
+        context_.received(results.deviceSeconds, results.range.count);
+        if (!results.complete) {
+            if (results.lanePaths == 1) context_.failCutShort();
+            kernel.limitLanePaths(results.lanePaths / 2);
+            ++context_.statistics.dispatchesCutShort;
+            batch.complete = false;
+            return;
+        }
+        batch.paths += results.range.count;
+        for (const shared::LaneResult& lane : results.lanes) {
+            batch.nonFinite += lane.nonFinite;
+            batch.lightRays += lane.lightRays;
+            batch.bounceRays += lane.bounceRays;
+            batch.shadowRays += lane.shadowRays;
+            batch.lastBounce += signed64(lane.lastBounce[0], lane.lastBounce[1]);
+            batch.previousBounce += signed64(lane.previousBounce[0], lane.previousBounce[1]);
+            batch.overflowed = batch.overflowed || lane.clamped > 0 || lane.overflowed > 0;
+        }
+    }
+
+    void takeOver(LightKernel& kernel, const Batch& batch) {
+        RenderStatistics& statistics = context_.statistics;
+        context_.film.addLight(kernel.takeFilm(), batch.paths);
+        statistics.samples += batch.paths;
+        statistics.nonFiniteSamples += batch.nonFinite;
+        statistics.lightRays += batch.lightRays;
+        statistics.bounceRays += batch.bounceRays;
+        statistics.shadowRays += batch.shadowRays;
+        statistics.filmOverflowed = statistics.filmOverflowed || batch.overflowed;
+        const auto quantum = static_cast<double>(context_.deviceScene.quantum);
+        context_.lastBounce += static_cast<double>(batch.lastBounce) * quantum;
+        context_.previousBounce += static_cast<double>(batch.previousBounce) * quantum;
+    }
+
+    RenderContext& context_;
+};
+
+}  // namespace
+
+void shoot(RenderContext& context) {
+    Shooter(context).run();
+}
+
+}  // namespace duolux

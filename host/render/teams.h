@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "host/vk/buffer.h"
+#include "host/vk/device.h"
+#include "host/vk/kernel.h"
+
+namespace duolux {
+
+/// A 64-bit two's complement number as kernels store it.
+inline std::int64_t signed64(std::uint32_t low, std::uint32_t high) {
+    return static_cast<std::int64_t>(std::uint64_t{high} << 32 | low);
+}
+
+/// How kernels share out the items of a dispatch (pixels, light paths): a team of lanes, a subgroup, takes
+/// the items of a range one after the other, so that all its lanes stay busy. Two dispatches may be in
+/// flight, in the places 0 and 1.
+class Teams {
+  public:
+    /// `maxItems`: of one dispatch.
+    Teams(const Device& device, std::uint32_t maxItems);
+
+    std::uint32_t lanes() const { return lanes_; }  ///< of a team
+    std::uint32_t workgroupSize() const { return workgroupSize_; }
+    const Buffer& progress() const { return progress_; }  ///< shared::TeamProgress
+    std::uint32_t firstTeam(unsigned place) const { return place * maxItems_; }
+    std::uint64_t deviceBytes() const { return progress_.allocated() + read_.allocated(); }
+
+    /// Items of each team where a lane may take up to `laneItems` of `items`. The more, the less the lanes of
+    /// a team wait for the last one; but there are enough teams to keep the device busy, as long as they are
+    /// full.
+    std::uint32_t share(std::uint32_t items, std::uint32_t laneItems) const;
+
+    /// Records a dispatch whose teams take `teamItems` each.
+    template <typename Push>
+    void record(const vk::raii::CommandBuffer& commands, const Kernel& kernel, const Push& push,
+                unsigned place, std::uint32_t items, std::uint32_t teamItems) {
+        const std::uint32_t teams = begin(commands, place, items, teamItems);
+        kernel.dispatch(commands, push, (teams * lanes_ + workgroupSize_ - 1) / workgroupSize_);
+        end(commands, place);
+    }
+
+    /// Whether no team of the dispatch was cut short by the driver; once it is done.
+    bool complete(unsigned place) const;
+
+  private:
+    struct Dispatch {
+        std::uint32_t items = 0, teamItems = 1, teams = 0;
+    };
+    std::uint32_t begin(const vk::raii::CommandBuffer& commands, unsigned place, std::uint32_t items,
+                        std::uint32_t teamItems);
+    void end(const vk::raii::CommandBuffer& commands, unsigned place) const;
+
+    std::uint32_t lanes_, workgroupSize_, fewestTeams_, maxItems_;
+    Buffer progress_, read_;
+    std::array<Dispatch, 2> dispatches_{};
+};
+
+}  // namespace duolux

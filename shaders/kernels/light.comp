@@ -1,0 +1,385 @@
+// Shooting: paths from the emitters, particles that carry a column L of flux per colour channel. At a surface O f_opaque L
+// is connected to the camera and may go on in a new direction, T L goes straight on: the adjoint of path.comp, with the
+// matrices multiplied from the left, in the order met.
+//
+// Scheduling is path.comp's: a team of lanes takes the paths of a range one after the other, and rays along the path and
+// rays to the camera share one traversal. All surfaces along a ray are met in order: at each, the particle is connected to
+// the camera, and one of them is chosen, in proportion to the flux that it would scatter, to go on from.
+//
+// What arrives at the camera is added to the film with atomics, in integers: in any order the sums are the same.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#ifdef DUOLUX_INT64_ATOMICS
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#endif
+
+#include "shaders/shared/bvh_layout.h"
+#include "shaders/shared/light_layout.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint kLeaveTraversal = 4u;
+layout(constant_id = 2) const uint kLeaveNodes = 3u;
+layout(constant_id = 10) const bool kSmoothNormals = true;
+layout(constant_id = 11) const uint kSampler = 0u;
+layout(constant_id = 14) const uint kTeamSize = 8u;
+layout(constant_id = 15) const uint kConnection = 2u;
+layout(constant_id = 16) const uint kFilmBands = 1u;
+layout(constant_id = 17) const uint kBandPixels = 1u;
+
+layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
+layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
+layout(binding = kBindingNormals) uniform usamplerBuffer normalTexels;
+layout(binding = kBindingMaterials) uniform usamplerBuffer materialTexels;
+layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
+layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
+layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { LaneResult results[]; };
+layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
+#ifdef DUOLUX_INT64_ATOMICS
+layout(binding = kBindingFilm, scalar) buffer FilmBlock { uint64_t sums[]; } film[kMaxFilmBands];
+#else
+layout(binding = kBindingFilm, scalar) buffer FilmBlock { uvec2 sums[]; } film[kMaxFilmBands];
+#endif
+layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
+
+#include "shaders/lib/camera.glsl"
+#include "shaders/lib/film.glsl"
+#include "shaders/lib/lights.glsl"
+#include "shaders/lib/sampler.glsl"
+#include "shaders/lib/surface.glsl"
+#include "shaders/lib/transport.glsl"
+#include "shaders/lib/traverse.glsl"
+
+uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
+uvec4 fetchTriangleTexel(uint index) { return texelFetch(triangleTexels, int(index)); }
+uvec4 fetchMaterialTexel(uint index) { return texelFetch(materialTexels, int(index)); }
+uvec4 fetchLightTexel(uint index) { return texelFetch(lightTexels, int(index)); }
+uvec4 fetchNormalTexel(uint index) { return texelFetch(normalTexels, int(index)); }
+
+LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
+LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
+LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
+
+const float kInfinity = 1e30;
+
+// A particle under way: the segment it is on.
+struct LightPath {
+    uvec2 id;          // its number
+    Light flux;        // here on the segment, what the surfaces crossed have done included; W
+    float emitted;     // flux it began with, the unit of Russian roulette
+    vec3 origin;
+    vec3 direction;
+    float t;           // the last surface crossed on the segment, and where: the walk goes on after it
+    uint primitive;
+    uint scatterings;  // events before the segment
+    uint crossings;    // on the segment
+    bool ended;
+};
+
+// Where a particle may scatter. One vertex of a segment is kept, by weighted reservoir sampling.
+struct Vertex {
+    Light flux;       // O L, of the chosen vertex, with the adjoint's factor for shading normals
+    Bsdf bsdf;
+    SurfacePoint point;
+    vec3 wi;          // to where the particle came from
+    float weight;     // of the chosen vertex
+    float weightSum;  // of all vertices of the segment
+};
+
+// A ray to the camera under way.
+struct Connection {
+    bool pending;
+    vec3 origin;
+    vec3 direction;
+    float distance;
+    float t;            // last surface crossed
+    uint primitive;
+    Light light;        // what would arrive if nothing more came in between
+    float roulette;     // a uniform number, and the part of all connections that are still under way
+    float survival;
+    uint pixel;
+    uint scatterings;   // events on the path, for the statistics
+};
+
+struct LaneSums {
+    uint nonFinite;
+    uint clamped;
+    uint overflowed;
+    uint lightRays;
+    uint bounceRays;
+    uint shadowRays;
+    uvec2 lastBounce;
+    uvec2 previousBounce;
+};
+
+// Component that surfaces may scatter or pass on, the largest channel: without second columns the visible one is lost on
+// all but the camera.
+float carried(Light l) { return maxComponent(l.invisible + (kSecondColumn ? l.visible : vec3(0.0))); }
+
+// How much light counts in a pixel.
+float rowWeighted(Light l) { return maxComponent(params.rowWeight.x * l.invisible + params.rowWeight.y * l.visible); }
+
+// Russian roulette on connections, where only a part of their worth is left: by its square root, with which the sum of
+// variances weighted by their worth is least for the work (Neyman's allocation).
+float connectionSurvival(float left, float whole) { return min(sqrt(left / whole), 1.0); }
+
+// Adds to one sum of the film; whether it left the range of 63 bits. The largest value is far below that range, so that no
+// sum passes through it unseen.
+bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
+#ifdef DUOLUX_INT64_ATOMICS
+    uint64_t value = packUint2x32(quanta);
+    uint64_t before = atomicAdd(film[band].sums[index], value);
+    return unpackUint2x32(before + value).y >= 0x80000000u;
+#else
+    uint before = atomicAdd(film[band].sums[index].x, quanta.x);
+    uint high = quanta.y + (before + quanta.x < before ? 1u : 0u);
+    return atomicAdd(film[band].sums[index].y, high) + high >= 0x80000000u;
+#endif
+}
+
+void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
+    vec3 total = light.invisible + light.visible;
+    float sum = total.x + total.y + total.z;
+    // Not the other way round: NaN is to be dropped.
+    bool fine = sum < kLargestRadiance;
+    sums.nonFinite += fine ? 0u : 1u;
+    if (!fine) return;
+    sums.clamped += sum * params.inverseQuantum >= kFilmLargest ? 1u : 0u;
+    bool overflowed = false;
+    uint base = (pixel % kBandPixels) * kFilmSums;
+    for (uint band = 0u; band < kFilmBands; band++) {
+        if (pixel / kBandPixels == band) {
+            for (int c = 0; c < 3; c++) {
+                bool a = filmAtomicAdd(band, base + uint(c), filmQuantise(light.invisible[c], params.inverseQuantum));
+                bool b = filmAtomicAdd(band, base + 3u + uint(c), filmQuantise(light.visible[c], params.inverseQuantum));
+                overflowed = overflowed || a || b;
+            }
+        }
+    }
+    sums.overflowed += overflowed ? 1u : 0u;
+
+    vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
+    float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
+    if (scatterings == params.bounces) sums.lastBounce = filmAddSigned(sums.lastBounce, mean, params.inverseQuantum);
+    if (scatterings + 1u == params.bounces) {
+        sums.previousBounce = filmAddSigned(sums.previousBounce, mean, params.inverseQuantum);
+    }
+}
+
+// Sets up a ray to the camera. `light`: intensity towards it, W per steradian.
+void connect(inout Connection connection, LightPath path, vec3 origin, CameraConnection camera, Light light,
+             uint scatterings) {
+    Light arriving = lightScale(light, vec3(camera.importance / (camera.distance * camera.distance)));
+    // Light that counts less than its brightness, by components that are not displayed, is connected less often.
+    float brightness = maxComponent(arriving.invisible + arriving.visible);
+    float survival = connectionSurvival(rowWeighted(arriving), max(params.rowWeight.x, params.rowWeight.y) * brightness);
+    uint dimension = sampleDimension(scatterings, path.crossings, kDimensionCamera);
+    float roulette = sampleChoice(path.id.y, path.id.x, dimension, params.seed).x;
+    connection.pending = camera.visible && brightness > 0.0 && roulette < survival;
+    connection.origin = origin;
+    connection.direction = camera.direction;
+    connection.distance = camera.distance;
+    connection.t = 0.0;
+    connection.primitive = kNoTriangle;
+    connection.light = arriving;
+    connection.roulette = roulette;
+    connection.survival = survival;
+    connection.pixel = camera.pixel;
+    connection.scatterings = scatterings;
+}
+
+// The particle of this number leaves its emitter, which is connected to the camera.
+LightPath emitPath(inout Connection connection, uvec2 id) {
+    uint dimension = sampleDimension(0u, 0u, kDimensionLight);
+    LightSample light = sampleLight(params.lightCount, sampleWords(kSampler, id.y, id.x, dimension, params.seed));
+    Material material = fetchMaterial(light.material);
+    bool bothSides = (material.flags & kMaterialEmitsBack) != 0u;
+    bool front = !bothSides || sampleChoice(id.y, id.x, dimension, params.seed).y < 0.5;
+    vec3 normal = front ? light.normal : -light.normal;
+    vec2 u = samplePair(kSampler, id.y, id.x, sampleDimension(0u, 0u, kDimensionEmission), params.seed);
+
+    LightPath path;
+    path.id = id;
+    path.flux = lightScale(material.emission, vec3(emittedFlux(material.lightPdfArea, bothSides ? 2.0 : 1.0)));
+    path.emitted = carried(path.flux);
+    path.origin = light.position + normal * light.positionError;
+    path.direction = fromFrame(normal, cosineHemisphere(u));
+    path.t = 0.0;
+    path.primitive = kNoTriangle;
+    path.scatterings = 0u;
+    path.crossings = 0u;
+    path.ended = !(path.emitted > 0.0) || params.bounces == 0u;
+
+    // Whatever side the particle leaves from, the camera sees the one that faces it.
+    bool seenFront = dot(light.normal, params.cameraPosition - light.position) > 0.0;
+    vec3 seenNormal = seenFront ? light.normal : -light.normal;
+    vec3 origin = light.position + seenNormal * light.positionError;
+    CameraConnection camera = connectToCamera(params, origin);
+    float cosine = max(dot(seenNormal, camera.direction), 0.0);
+    Light emission = materialEmission(material, seenFront);
+    connect(connection, path, origin, camera, lightScale(emission, vec3(cosine / material.lightPdfArea)), 0u);
+    return path;
+}
+
+// The particle goes on from the chosen vertex of the segment, or ends.
+void endSegment(inout LightPath path, inout Vertex vertex) {
+    float weightSum = vertex.weightSum;
+    vertex.weightSum = 0.0;
+    path.ended = true;
+    if (!kInvisibleScatters && !kSecondColumn) return;
+    if (!(weightSum > 0.0)) return;
+    // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted. Where that
+    // grows (crossing surfaces that also scatter) every particle survives and carries the growth.
+    float relative = weightSum / path.emitted;
+    float survival = path.scatterings >= 2u && relative < 1.0 ? min(relative, 0.95) : 1.0;
+    uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
+    if (sampleChoice(path.id.y, path.id.x, choice, params.seed).y >= survival) return;
+
+    uint dimension = sampleDimension(path.scatterings, 0u, kDimensionDirection);
+    vec2 u = samplePair(kSampler, path.id.y, path.id.x, dimension, params.seed);
+    // In the frame of the geometric normal: the adjoint's cosine on this side is that one's.
+    vec3 normal = vertex.point.geometricNormal;
+    BsdfSample s = bsdfSample(vertex.bsdf, toFrame(normal, vertex.wi), u);
+    path.flux = lightScale(vertex.flux, s.weight * (weightSum / (vertex.weight * survival)));
+    path.origin = vertex.point.position;
+    path.direction = fromFrame(normal, s.wi);
+    path.t = 0.0;
+    path.primitive = kNoTriangle;
+    path.scatterings += 1u;
+    path.crossings = 0u;
+    path.ended = !(s.pdf > 0.0) || path.scatterings >= params.bounces;
+}
+
+// The ray to the camera has met a surface, or nothing more.
+void meetConnection(inout Connection connection, inout LaneSums sums, Traversal ray, bool found, uint material) {
+    if (kConnection == kTransmittanceGeneral && found) {
+        float before = rowWeighted(connection.light);
+        Light through = lightApply(transparentOf(material), connection.light);
+        // Roulette where what is displayed is lost, by the same number all along the ray.
+        connection.survival *= connectionSurvival(rowWeighted(through), before);
+        connection.light = through;
+        connection.t = ray.t;
+        connection.primitive = ray.primitive;
+        connection.pending = connection.roulette < connection.survival;
+        return;
+    }
+    Light light = connection.light;
+    // Surfaces that pass on the invisible component as it is, and nothing of the visible one.
+    if (found) light = Light(kConnection == kTransmittanceIdentity ? light.invisible : vec3(0.0), vec3(0.0));
+    light = lightScale(light, vec3(1.0 / connection.survival));
+    if (maxComponent(light.invisible + light.visible) != 0.0) {
+        splat(sums, light, connection.pixel, connection.scatterings);
+    }
+    connection.pending = false;
+}
+
+// The particle has met a surface: the connection to the camera, a candidate for scattering, and the crossing.
+void meetSurface(inout LightPath path, inout Vertex vertex, inout Connection connection, Traversal ray, Triangle tri) {
+    uint materialIndex = tri.materialFlags & kMaterialMask;
+    Material material = fetchMaterial(materialIndex);
+    vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+    bool front = dot(normal, path.direction) < 0.0;
+
+    SurfacePoint point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, path.direction, kSmoothNormals);
+    vec3 wi = -path.direction;
+    float adjoint = materialScatters(material, front) ? shadingAdjoint(point, wi) : 0.0;
+    Light scattered = lightScale(lightApply(opaqueOf(materialIndex), path.flux), vec3(adjoint));
+    CameraConnection camera = connectToCamera(params, point.position);
+    float cosine = max(dot(point.geometricNormal, camera.direction), 0.0);
+    vec3 f = bsdfEvaluate(material.bsdf, toFrame(point.geometricNormal, camera.direction), toFrame(point.geometricNormal, wi));
+    connect(connection, path, point.position, camera, lightScale(scattered, f * cosine), path.scatterings + 1u);
+
+    float weight = carried(lightScale(scattered, bsdfAlbedo(material.bsdf, wi)));
+    if (weight > 0.0) {
+        float weightSum = vertex.weightSum + weight;
+        bool chosen = true;
+        if (kTransmittance != kTransmittanceZero) {
+            uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
+            chosen = sampleChoice(path.id.y, path.id.x, choice, params.seed).x * weightSum < weight;
+        }
+        if (chosen) vertex = Vertex(scattered, material.bsdf, point, wi, weight, weightSum);
+        vertex.weightSum = weightSum;
+    }
+
+    bool passes = false;
+    if (kTransmittance != kTransmittanceZero) {
+        path.flux = lightApply(transparentOf(materialIndex), path.flux);
+        passes = carried(path.flux) > 0.0;
+        path.t = ray.t;
+        path.primitive = ray.primitive;
+        path.crossings += 1u;
+    }
+    if (!passes) endSegment(path, vertex);
+}
+
+uvec2 pathNumber(uint index) {
+    uint low = dispatch.firstLow + index;
+    return uvec2(low, dispatch.firstHigh + (low < index ? 1u : 0u));
+}
+
+// To the camera first, then along the path. Nothing is to be met where both have ended, nor by a lane without a path.
+Traversal nextRay(LightPath path, Connection connection, bool hasPath, inout LaneSums sums) {
+    bool toCamera = hasPath && connection.pending;
+    bool onPath = hasPath && !connection.pending && !path.ended;
+    bool emitted = path.scatterings + path.crossings == 0u;
+    sums.shadowRays += toCamera ? 1u : 0u;
+    sums.lightRays += onPath && emitted ? 1u : 0u;
+    sums.bounceRays += onPath && !emitted ? 1u : 0u;
+    Traversal ray = traversalStart(0u, toCamera ? connection.origin : path.origin,
+                                   toCamera ? connection.direction : path.direction,
+                                   toCamera ? connection.t : path.t, toCamera ? connection.primitive : path.primitive,
+                                   toCamera ? connection.distance : kInfinity,
+                                   toCamera && kConnection != kTransmittanceGeneral);
+    ray.nodesLeft = toCamera || onPath;
+    return ray;
+}
+
+LaneSums emptySums() { return LaneSums(0u, 0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u)); }
+
+LaneResult laneResult(LaneSums sums) {
+    return LaneResult(sums.nonFinite, sums.clamped, sums.overflowed, sums.lightRays, sums.bounceRays, sums.shadowRays,
+                      uint[2](sums.lastBounce.x, sums.lastBounce.y),
+                      uint[2](sums.previousBounce.x, sums.previousBounce.y));
+}
+
+void main() {
+    uint team = gl_GlobalInvocationID.x / kTeamSize;
+    uint teamBegin = team * dispatch.teamPaths;
+    if (teamBegin >= dispatch.count) return;
+    uint teamPaths = min(dispatch.teamPaths, dispatch.count - teamBegin);
+    const bool ordered = kTransmittance != kTransmittanceZero;
+    uint progress = dispatch.firstTeam + team;
+
+    LaneSums sums = emptySums();
+    Vertex vertex;
+    vertex.weightSum = 0.0;
+    Connection connection;
+    uint taken = atomicAdd(teams[progress].taken, 1u);
+    LightPath path = emitPath(connection, pathNumber(teamBegin + min(taken, teamPaths - 1u)));
+    Traversal ray = nextRay(path, connection, taken < teamPaths, sums);
+
+    while (taken < teamPaths) {
+        traverse(ray, ordered, kLeaveTraversal, kLeaveNodes);
+        if (!traversalAlive(ray)) {
+            bool found = ray.triangle != kNoTriangle;
+            Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
+            if (connection.pending) {
+                meetConnection(connection, sums, ray, found, tri.materialFlags & kMaterialMask);
+            } else if (!path.ended) {
+                if (found) {
+                    meetSurface(path, vertex, connection, ray, tri);
+                } else {
+                    endSegment(path, vertex);
+                }
+            }
+            while (path.ended && !connection.pending && taken < teamPaths) {
+                atomicAdd(teams[progress].finished, 1u);
+                taken = atomicAdd(teams[progress].taken, 1u);
+                path = emitPath(connection, pathNumber(teamBegin + min(taken, teamPaths - 1u)));
+            }
+            ray = nextRay(path, connection, taken < teamPaths, sums);
+        }
+    }
+    results[dispatch.firstResult + gl_GlobalInvocationID.x] = laneResult(sums);
+}

@@ -1,0 +1,47 @@
+// Bindings and records of the light-tracing kernel beyond those of path_layout.h, shared by C++ and GLSL (scalar block
+// layout). It uses the bindings 0 to 5, kBindingResults (LaneResult) and kBindingTeams, too.
+#ifndef DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
+#define DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
+
+#include "shaders/shared/path_layout.h"
+
+DUOLUX_BEGIN
+
+// Storage: the sums of the film, an array of buffers of which each holds a band of pixels, because devices limit what one
+// may hold. A pixel has six 64-bit sums in quanta: invisible r, g, b, visible r, g, b.
+DUOLUX_CONST uint kBindingFilm = 9u;
+DUOLUX_CONST uint kMaxFilmBands = 8u;
+DUOLUX_CONST uint kFilmSums = 6u;
+
+DUOLUX_CONST uint kSpecConnection = 15u;   // one of the kTransmittance...: what surfaces do to light on its way to the camera
+DUOLUX_CONST uint kSpecFilmBands = 16u;
+DUOLUX_CONST uint kSpecBandPixels = 17u;   // pixels of each band but the last
+
+// A range of light paths. Each has a number of its own below 2^64, as (low, high).
+struct LightDispatch {
+    uint firstLow;
+    uint firstHigh;
+    uint count;
+    uint teamPaths;    // paths that each team of lanes takes, one after the other
+    uint firstResult;  // where the first lane's goes
+    uint firstTeam;
+};
+
+// Sums over the paths that a lane has taken in one dispatch. 64-bit two's complement numbers as (low, high).
+struct LaneResult {
+    uint nonFinite;           // contributions dropped because they were not finite
+    uint clamped;             // contributions brighter than the film can hold
+    uint overflowed;          // sums that left the range of 63 bits
+    uint lightRays;
+    uint bounceRays;
+    uint shadowRays;          // to the camera
+    uint lastBounce[2];       // displayed radiance (mean of channels) with PathParams.bounces scattering events, in quanta
+    uint previousBounce[2];   // with one fewer
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(LaneResult) == 40 && sizeof(LightDispatch) == 24);
+#endif
+
+DUOLUX_END
+#endif

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/render/render.h"
+#include "host/scene/load.h"
+#include "host/scene/two_spheres.h"
+#include "tests/statistical/renders.h"
+#include "tests/support/cornell.h"
+#include "tests/support/exact_case.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/temporary_folder.h"
+
+// Light paths against closed forms, and against gathering, which shares neither the direction in which
+// matrices are multiplied nor the densities. (cornell_test.cpp compares them with the reference.)
+
+namespace duolux::test {
+
+namespace {
+
+class LightExact : public testing::TestWithParam<ExactCase> {};
+
+TEST_P(LightExact, MatchesClosedForm) {
+    const ExactCase& exact = GetParam();
+    const std::uint32_t pixels = exact.scene.render.width * exact.scene.render.height;
+    expectAgreement(exact.name + "Light", renderByLight(exact.scene, (1u << 17) / pixels, 16), exact.expected,
+                    {.relative = exact.relative, .lightPaths = true});
+}
+
+std::vector<ExactCase> casesForLight() {
+    std::vector<ExactCase> cases = exactCases();
+    std::erase_if(cases, [](const ExactCase& exact) { return exact.onePoint; });
+    return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LightExact, testing::ValuesIn(casesForLight()),
+                         [](const auto& test) { return test.param.name; });
+
+struct PairCase {
+    std::string name;
+    Scene scene;
+};
+
+/// For messages of the test framework.
+void PrintTo(const PairCase& pair, std::ostream* out) {
+    *out << pair.name;
+}
+
+/// Full matrices that do not commute and differ per channel.
+Reflectance fullReflectance() {
+    return {{{0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}},
+            {{0.3f, 0.6f, 0.1f}, {0.2f, 0.1f, 0.5f}, {0.4f, 0.2f, 0.3f}, {0.1f, 0.5f, 0.7f}}};
+}
+
+/// Identity on the invisible component, which each crossing also makes visible.
+Reflectance glowing() {
+    return {matrix(0.5f, 0, 0.5f, 0), matrix(1, 0, 0.25f, 0)};
+}
+
+Scene twoSpheres(const Reflectance& reflectance) {
+    const TemporaryFolder folder;
+    writeTwoSpheres(folder.path(), 2000);
+    Scene scene = loadScene(folder.path() / "two_spheres.json");
+    scene.reflectance = reflectance;
+    scene.render.width = scene.render.height = 32;
+    scene.render.bounces = 4;
+    return scene;
+}
+
+/// A coarse sphere with smooth normals, far from those of its faces, above a floor.
+Scene smoothSphere(const Reflectance& reflectance) {
+    SceneBuilder builder;
+    Material grey;
+    grey.name = "grey";
+    grey.diffuse = {0.8f, 0.6f, 0.4f};
+    const std::uint32_t surface = builder.add(grey);
+    builder.sphere({0, 1, 0}, 1.0f, 1, Facing::kOutward, surface);
+    Geometry& geometry = builder.scene.geometry;
+    geometry.normalIndices = geometry.triangles;
+    for (const glm::vec3& p : geometry.positions)
+        geometry.normals.push_back(glm::normalize(p - glm::vec3(0, 1, 0)));
+    builder.quad({-3, -0.2f, -3}, {-3, -0.2f, 3}, {3, -0.2f, 3}, {3, -0.2f, -3}, surface);
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.diffuse = glm::vec3(0.0f);
+    lamp.emission = {{20, 15, 10}, {5, 10, 15}, Sides::kFront};
+    builder.quad({-1.5f, 4, 0}, {-1.5f, 3, 1}, {-2.5f, 2, 0}, {-2.5f, 3, -1}, builder.add(lamp));
+    geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
+    Scene& scene = builder.scene;
+    scene.reflectance = reflectance;
+    scene.camera = {{0.5f, 2.5f, 5}, {0, 0.7f, 0}, {0, 1, 0}, 40.0f};
+    scene.render.width = scene.render.height = 32;
+    scene.render.bounces = 3;
+    return scene;
+}
+
+std::vector<PairCase> pairCases() {
+    std::vector<PairCase> cases;
+    const std::vector<std::pair<std::string, Reflectance>> reflectances = {
+        {"Local", preset("local")},
+        {"Global", preset("global")},
+        {"Shadowless", preset("shadowless")},
+        {"OneBounce", preset("one-bounce")},
+        {"Blend62", blendReflectance(0.6f, 0.2f)},
+        {"Full", fullReflectance()},
+        {"Glowing", glowing()}};
+    for (const auto& [name, reflectance] : reflectances) {
+        cases.push_back({"TwoSpheres" + name, twoSpheres(reflectance)});
+        cases.push_back({"SmoothSphere" + name, smoothSphere(reflectance)});
+    }
+    return cases;
+}
+
+class Pair : public testing::TestWithParam<PairCase> {};
+
+TEST_P(Pair, GatheringAndShootingAgree) {
+    const PairCase& pair = GetParam();
+    expectAgreement(pair.name + "Light", renderByLight(pair.scene, 128, 24),
+                    estimatesOf(renderSeeds(pair.scene, 64, 24, 1000)), {.lightPaths = true});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Pair, testing::ValuesIn(pairCases()),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+
+}  // namespace duolux::test
