@@ -13,6 +13,7 @@ void addCompareCommand(CLI::App& app);
 void addDevicesCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addMakeSceneCommand(CLI::App& app);
+void addMergeCommand(CLI::App& app);
 void addSheetCommand(CLI::App& app);
 
 }  // namespace duolux

@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
     duolux::addDevicesCommand(app);
     duolux::addInfoCommand(app);
     duolux::addMakeSceneCommand(app);
+    duolux::addMergeCommand(app);
     duolux::addSheetCommand(app);
     try {
         checkCommand(app, argc, argv);

@@ -51,6 +51,15 @@ glm::uvec2 parseSize(const std::string& text) {
     return {values->first, values->second};
 }
 
+SampleRange parseSampleRange(const std::string& text) {
+    const auto values = parsePair<std::uint32_t>(text, ':');
+    if (!values || values->first >= values->second) {
+        throw UsageError(fmt::format(
+            "--sample-range {}: expected A:B, two whole numbers with A < B, for example 0:32", text));
+    }
+    return {values->first, values->second};
+}
+
 CLI::Validator between(double lower, double upper) {
     const std::string range = fmt::format("from {:g} to {:g}", lower, upper);
     return CLI::Validator(

@@ -18,6 +18,12 @@ std::optional<glm::vec2> parsePoint(const std::string& text);
 /// "WIDTHxHEIGHT", each from 1 to 16384.
 glm::uvec2 parseSize(const std::string& text);
 
+/// "A:B", samples [first, end) with first < end.
+struct SampleRange {
+    std::uint32_t first, end;
+};
+SampleRange parseSampleRange(const std::string& text);
+
 /// Checks that an option's text is a number in [lower, upper], which NaN is not.
 CLI::Validator between(double lower, double upper);
 CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);

@@ -6,19 +6,16 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <optional>
 
 #include "host/app/commands.h"
+#include "host/app/film_images.h"
 #include "host/app/interrupt.h"
 #include "host/app/options.h"
 #include "host/app/report.h"
 #include "host/base/error.h"
-#include "host/base/file.h"
 #include "host/base/progress.h"
-#include "host/base/version.h"
-#include "host/film/image.h"
 #include "host/scene/hash.h"
 #include "host/scene/load.h"
 
@@ -35,7 +32,8 @@ double secondsSince(Clock::time_point start) {
 struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
-    std::string preset, blend, size, sampler, integrator, directLight = "auto", device, report;
+    std::string preset, blend, size, sampler, integrator, directLight, device, report, sampleRange,
+        checkpoint, resume;
     std::optional<std::uint32_t> spp, bounces, seed;
     std::optional<double> timeLimit;
     float exposure = 0.0f;
@@ -58,6 +56,7 @@ struct Overrides {
     std::optional<glm::uvec2> size;
     std::optional<Sampler> sampler;
     std::optional<Integrator> integrator;
+    std::optional<SampleRange> range;
 
     void applyTo(Scene& scene, const RenderOptions& options) const {
         RenderSettings& settings = scene.render;
@@ -84,25 +83,11 @@ Overrides parseOverrides(const RenderOptions& options) {
     if (!options.sampler.empty()) {
         overrides.sampler = options.sampler == "sobol" ? Sampler::kSobol : Sampler::kIndependent;
     }
+    if (!options.sampleRange.empty()) overrides.range = parseSampleRange(options.sampleRange);
     if (!options.integrator.empty()) {
         overrides.integrator = options.integrator == "light" ? Integrator::kLight : Integrator::kPath;
     }
     return overrides;
-}
-
-ImageOptions imageOptions(const RenderOptions& options, const Scene& scene,
-                          const RenderStatistics& statistics) {
-    const double pixels = static_cast<double>(scene.render.width) * scene.render.height;
-    ImageOptions out;
-    out.display = scene.display;
-    out.exposure = options.exposure;
-    out.metadata = {{"reflectance", describeReflectance(scene.reflectance)},
-                    {"spp", fmt::format("{:g}", static_cast<double>(statistics.samples) / pixels)},
-                    {"seed", fmt::format("{}", scene.render.seed)},
-                    {"bounces", fmt::format("{}", scene.render.bounces)},
-                    {"scene hash", scene.hash},
-                    {"version", fmt::format("duolux {} ({})", versionString(), commitString())}};
-    return out;
 }
 
 void warn(const std::string& text) {
@@ -114,14 +99,25 @@ std::string percent(double part, double whole) {
     return value < 10.0 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
 }
 
+const char* samplesName(const Scene& scene) {
+    return scene.render.integrator == Integrator::kLight ? "light paths" : "samples";
+}
+
+std::uint64_t samplesInAll(const Scene& scene, const RenderControl& control) {
+    return std::uint64_t{scene.render.width} * scene.render.height * (scene.render.spp - control.firstSample);
+}
+
 /// What the user should know of a finished render.
-std::vector<std::string> resultWarnings(const Scene& scene, const RenderStatistics& statistics) {
+std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl& control,
+                                        const RenderOutput& output) {
+    const RenderStatistics& statistics = output.statistics;
     std::vector<std::string> warnings;
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
     if (statistics.stopped && !interrupted()) {
-        warnings.push_back(fmt::format("stopped at the time limit after {:.4g} of {} samples per pixel",
-                                       static_cast<double>(statistics.samples) / static_cast<double>(pixels),
-                                       scene.render.spp));
+        const auto taken = static_cast<double>(output.film.totalSamples() + output.film.lightPaths());
+        warnings.push_back(fmt::format("stopped at the time limit after {:.4g} of {} {} per pixel",
+                                       taken / static_cast<double>(pixels),
+                                       scene.render.spp - control.firstSample, samplesName(scene)));
     }
     if (statistics.cutOffByBounces()) {
         warnings.push_back(fmt::format(
@@ -143,18 +139,50 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderStatisti
     return warnings;
 }
 
-/// Writes all that can be written; then throws for the first that could not.
-void writeImages(const std::vector<std::string>& files, const RadianceImage& image,
-                 const ImageOptions& options) {
-    std::exception_ptr failure;
-    for (const std::string& file : files) {
-        try {
-            writeImage(file, image, options);
-        } catch (const Error&) {
-            if (!failure) failure = std::current_exception();
-        }
+DirectLight chooseDirectLight(const RenderOptions& options, const Scene& scene) {
+    if (options.directLight.empty()) return DirectLight::kAuto;
+    if (scene.render.integrator == Integrator::kLight) {
+        throw UsageError(
+            "--direct-light is for --integrator path; light paths bring direct light like any other");
     }
-    if (failure) std::rethrow_exception(failure);
+    if (options.directLight == "auto") return DirectLight::kAuto;
+    return options.directLight == "sampled" ? DirectLight::kSampled : DirectLight::kClosedForm;
+}
+
+/// The samples to take: those of --sample-range, or of the checkpoint, or all.
+void chooseRange(const RenderOptions& options, const Overrides& overrides,
+                 const std::optional<Checkpoint>& resumed, Scene& scene, RenderControl& control) {
+    if (overrides.range) {
+        const auto [first, end] = *overrides.range;
+        if (end > scene.render.spp) {
+            throw UsageError(
+                fmt::format("--sample-range {}: there are {} samples per pixel; expected A:B with "
+                            "0 <= A < B <= {}, or more --spp",
+                            options.sampleRange, scene.render.spp, scene.render.spp));
+        }
+        control.firstSample = first;
+        scene.render.spp = end;
+    } else if (resumed && resumed->origin.firstSample > 0) {
+        control.firstSample = resumed->origin.firstSample;
+        scene.render.spp = resumed->origin.settings.spp;
+    }
+}
+
+void prepareResume(const RenderOptions& options, const Checkpoint& resumed, const Scene& scene,
+                   RenderControl& control) {
+    if (resumed.origin.firstSample != control.firstSample) {
+        throw InputError(
+            options.resume, "first sample",
+            fmt::format("is {}, but {} of this render", resumed.origin.firstSample, control.firstSample),
+            "expected a range that begins alike");
+    }
+    // Unless asked for otherwise, direct light is found as before.
+    FilmOrigin wanted = originOf(scene, control.firstSample, control.directLight == DirectLight::kClosedForm);
+    if (control.directLight == DirectLight::kAuto) {
+        wanted.directLight = control.directLight = resumed.origin.directLight;
+    }
+    requireSameOrigin(options.resume, resumed.origin, wanted, "this render");
+    control.resume = &resumed.state;
 }
 
 void runRender(const RenderOptions& options) {
@@ -166,7 +194,9 @@ void runRender(const RenderOptions& options) {
         files.push_back({"-o", output});
     if (!options.report.empty() && options.report != "-")
         files.push_back({"--report", options.report, false});
-    checkOutputs(files, {options.scene});
+    if (!options.checkpoint.empty()) files.push_back({"--checkpoint", options.checkpoint, false});
+    // A checkpoint may take the place of the one that the render goes on from.
+    checkOutputs(files, {options.scene, options.resume == options.checkpoint ? "" : options.resume});
     const Overrides overrides = parseOverrides(options);
     catchInterrupts();
 
@@ -175,37 +205,49 @@ void runRender(const RenderOptions& options) {
     overrides.applyTo(scene, options);
     for (const std::string& warning : scene.warnings)
         warn(warning);
+    RenderControl control;
+    control.timeLimit = options.timeLimit;
+    control.directLight = chooseDirectLight(options, scene);
+    std::optional<Checkpoint> resumed;
+    if (!options.resume.empty()) resumed = readCheckpoint(options.resume);
+    chooseRange(options, overrides, resumed, scene, control);
+    if (resumed) prepareResume(options, *resumed, scene, control);
     seconds.load = secondsSince(start);
 
     Device device(options.device);
-    RenderControl control;
-    control.timeLimit = options.timeLimit;
-    if (options.directLight != "auto") {
-        control.directLight =
-            options.directLight == "sampled" ? DirectLight::kSampled : DirectLight::kClosedForm;
-    }
     Progress progress(Progress::styleForStderr(options.quiet));
     control.onProgress = [&](const RenderProgress& p) {
         progress.update({static_cast<double>(p.samplesDone), static_cast<double>(p.samplesTotal), p.seconds,
                          options.timeLimit});
         return !interrupted();
     };
+    const auto origin = [&](const RenderStatistics& statistics) {
+        return originOf(scene, control.firstSample, statistics.directLightInClosedForm);
+    };
+    if (!options.checkpoint.empty()) {
+        control.onCheckpoint = [&](const Film& film, const RenderStatistics& statistics) {
+            writeCheckpoint(options.checkpoint, origin(statistics), film, statistics);
+        };
+    }
     const RenderOutput output = render(device, scene, control);
     progress.finish();
 
-    for (const std::string& warning : resultWarnings(scene, output.statistics)) {
+    for (const std::string& warning : resultWarnings(scene, control, output)) {
         warn(warning);
         scene.warnings.push_back(warning);
     }
     const Clock::time_point writeStart = Clock::now();
+    if (control.onCheckpoint) control.onCheckpoint(output.film, output.statistics);
     const auto finish = [&] {
         seconds.write = secondsSince(writeStart);
         seconds.total = secondsSince(start);
         if (options.report.empty()) return;
-        writeReport(options.report, renderReport(scene, device.info(), output.statistics, seconds));
+        writeReport(options.report,
+                    renderReport(scene, control.firstSample, device.info(), output.statistics, seconds));
     };
     try {
-        writeImages(outputs, output.film.resolve(), imageOptions(options, scene, output.statistics));
+        writeImages(outputs, output.film.resolve(),
+                    filmImageOptions(origin(output.statistics), output.film, options.exposure));
     } catch (const Error&) {
         finish();
         throw;
@@ -213,10 +255,10 @@ void runRender(const RenderOptions& options) {
     finish();
 
     if (output.statistics.stopped && interrupted()) {
-        throw Error(
-            ExitStatus::kInterrupted,
-            fmt::format("interrupted: wrote what there is, {} of {} samples", output.statistics.samples,
-                        std::uint64_t{scene.render.width} * scene.render.height * scene.render.spp));
+        throw Error(ExitStatus::kInterrupted,
+                    fmt::format("interrupted: wrote what there is, {} of {} {}",
+                                output.film.totalSamples() + output.film.lightPaths(),
+                                samplesInAll(scene, control), samplesName(scene)));
     }
 }
 
@@ -231,7 +273,7 @@ void addRenderCommand(CLI::App& app) {
                      "Image to write: .exr, .png or .pfm; may be given several times (default: SCENE's name "
                      "+ .png in the current folder)")
         ->type_name("FILE")
-        ->expected(1)
+        ->allow_extra_args(false)
         ->take_all();
     std::vector<std::string> names;
     for (const Preset& preset : presets())
@@ -275,8 +317,9 @@ void addRenderCommand(CLI::App& app) {
     command
         ->add_option(
             "--direct-light", options->directLight,
-            "Light from emitters: sampled; in closed form, without noise, where nothing can be in between "
-            "(local, shadowless); or auto (the default): in closed form for local")
+            "Light from emitters to the surfaces on paths from the camera: sampled; in closed form, without "
+            "noise, where nothing can be in between (local, shadowless); or auto (the default): in closed "
+            "form for local")
         ->type_name("NAME")
         ->check(CLI::IsMember({"auto", "sampled", "closed-form"}));
     command
@@ -290,6 +333,19 @@ void addRenderCommand(CLI::App& app) {
                      "before every pixel has one sample")
         ->type_name("SECONDS")
         ->check(between(1e-3, 1e9));
+    command
+        ->add_option("--sample-range", options->sampleRange,
+                     "Only samples A to B-1 of every pixel (or as many light paths), a part for 'duolux "
+                     "merge', with --checkpoint")
+        ->type_name("A:B");
+    command
+        ->add_option("--checkpoint", options->checkpoint,
+                     "Keep what there is, exactly, in this file: every minute, and at the end")
+        ->type_name("FILE");
+    command
+        ->add_option("--resume", options->resume,
+                     "Go on from a checkpoint of the same scene and settings; --spp may be larger")
+        ->type_name("FILE");
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")
         ->type_name("STOPS")
         ->check(between(-64.0, 64.0));

@@ -26,8 +26,8 @@ double perSecond(std::uint64_t count, double seconds) {
 
 }  // namespace
 
-std::string renderReport(const Scene& scene, const DeviceInfo& device, const RenderStatistics& statistics,
-                         const StageSeconds& seconds) {
+std::string renderReport(const Scene& scene, std::uint32_t firstSample, const DeviceInfo& device,
+                         const RenderStatistics& statistics, const StageSeconds& seconds) {
     const std::uint64_t rays = statistics.cameraRays + statistics.lightRays + statistics.bounceRays +
                                statistics.shadowRays + statistics.emitterRays;
     const bool shot = scene.render.integrator == Integrator::kLight;
@@ -42,7 +42,8 @@ std::string renderReport(const Scene& scene, const DeviceInfo& device, const Ren
                        {"materials", scene.materials.size()}};
     report["settings"] = {{"width", scene.render.width},
                           {"height", scene.render.height},
-                          {"spp", scene.render.spp},
+                          {"spp", scene.render.spp - firstSample},
+                          {"sample_range", {firstSample, scene.render.spp}},
                           {"bounces", scene.render.bounces},
                           {"effective_bounces", statistics.effectiveBounces},
                           {"seed", scene.render.seed},

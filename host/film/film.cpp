@@ -1,6 +1,8 @@
 #include "host/film/film.h"
 
+#include <cassert>
 #include <limits>
+#include <utility>
 
 namespace duolux {
 
@@ -28,6 +30,29 @@ Film::Film(std::uint32_t width, std::uint32_t height, float quantum)
       quantum_(quantum),
       sums_(std::size_t{width} * height, PixelSum{}),
       samples_(std::size_t{width} * height, 0) {}
+
+Film::Film(std::uint32_t width, std::uint32_t height, float quantum, std::vector<PixelSum> sums,
+           std::vector<std::uint32_t> samples, std::vector<PixelSum> lightSums, std::uint64_t lightPaths)
+    : width_(width),
+      height_(height),
+      quantum_(quantum),
+      sums_(std::move(sums)),
+      samples_(std::move(samples)),
+      lightSums_(std::move(lightSums)),
+      lightPaths_(lightPaths) {
+    assert(sums_.size() == std::size_t{width} * height && samples_.size() == sums_.size());
+    assert(lightSums_.empty() || lightSums_.size() == sums_.size());
+}
+
+void Film::add(const Film& other) {
+    assert(other.sums_.size() == sums_.size() && other.quantum_ == quantum_);
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+        addTo(sums_[i], other.sums_[i], overflowed_);
+        samples_[i] += other.samples_[i];
+    }
+    addLight(other.lightSums_, other.lightPaths_);
+    overflowed_ = overflowed_ || other.overflowed_;
+}
 
 void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -23,6 +23,13 @@ class Film {
     /// `quantum`: radiance of one unit, a power of two > 0.
     Film(std::uint32_t width, std::uint32_t height, float quantum);
 
+    /// From what the accessors of another film returned; `lightSums` may be empty. The sizes must fit.
+    Film(std::uint32_t width, std::uint32_t height, float quantum, std::vector<PixelSum> sums,
+         std::vector<std::uint32_t> samples, std::vector<PixelSum> lightSums, std::uint64_t lightPaths);
+
+    /// Adds all that a film of the same size and quantum holds.
+    void add(const Film& other);
+
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
     float quantum() const { return quantum_; }
@@ -39,6 +46,7 @@ class Film {
     bool overflowed() const { return overflowed_; }
     std::uint64_t totalSamples() const;
     std::uint32_t samplesOf(std::uint32_t pixel) const { return samples_[pixel]; }
+    std::span<const std::uint32_t> samples() const { return samples_; }
     std::span<const PixelSum> sums() const { return sums_; }
     std::uint64_t lightPaths() const { return lightPaths_; }
     std::span<const PixelSum> lightSums() const { return lightSums_; }  ///< empty if there is no light

@@ -20,13 +20,15 @@ struct RenderContext {
     /// Displayed radiance of paths with the largest number of scattering events, and with one fewer: sums
     /// over samples, of the means of the channels.
     double lastBounce = 0.0, previousBounce = 0.0;
-    Clock::time_point start{}, lastReceived{};
+    Clock::time_point start{}, lastReceived{}, lastCheckpoint{};
     double secondsPerSample = 0.0;  ///< on the device, as measured so far; 0: not yet
 
     std::uint64_t pixels() const { return std::uint64_t{film.width()} * film.height(); }
-    std::uint64_t samplesTotal() const { return scene.render.spp * pixels(); }
+    /// Samples or light paths to take, without what was resumed.
+    std::uint64_t samplesTotal() const;
+    std::uint64_t samplesResumed = 0;
 
-    void begin() { start = lastReceived = Clock::now(); }
+    void begin() { start = lastReceived = lastCheckpoint = Clock::now(); }
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
     /// A dispatch begun now might not end within the time limit.
@@ -37,6 +39,12 @@ struct RenderContext {
 
     /// Tells the caller, who may stop the render.
     void reportProgress();
+
+    /// Has the caller keep what there is, if it is time. Only while no pixel's samples have gaps.
+    void offerCheckpoint();
+
+    /// Takes the sums over samples into the statistics.
+    void summarise();
 
     /// The driver ended the loops of dispatches in which a lane had one path alone.
     [[noreturn]] void failCutShort() const;

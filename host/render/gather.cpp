@@ -58,8 +58,9 @@ class Gatherer {
             control.maxSamplesPerDispatch > 0
                 ? std::min(PathKernel::kMaxSamples, control.maxSamplesPerDispatch)
                 : PathKernel::kMaxSamples;
-        Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), context_.scene.render.spp,
-                          kernel.maxSlots(), maxSamples);
+        Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), control.firstSample,
+                          context_.scene.render.spp, kernel.maxSlots(), maxSamples);
+        schedule.resume(samplesOfSlots());
         if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
         context_.begin();
         unsigned submitted = 0;
@@ -67,18 +68,29 @@ class Gatherer {
         bool timeIsUp = false;
         for (;;) {
             // Keep two dispatches in flight, so that the device works while the host adds up.
-            while (submitted - received < 2 && !statistics.stopped) {
+            while (submitted - received < 2) {
                 timeIsUp = timeIsUp || context_.timeIsUp();
-                const auto range = schedule.next(context_.secondsPerSample, kernel.laneSamples(), timeIsUp);
+                Wanted wanted = timeIsUp ? Wanted::kFirstPass : Wanted::kAll;
+                if (statistics.stopped) wanted = Wanted::kRetries;
+                const auto range = schedule.next(context_.secondsPerSample, kernel.laneSamples(), wanted);
                 if (!range) break;
                 kernel.submit(submitted++ % 2, *range);
             }
             if (submitted == received) break;
             if (const auto range = receive(kernel, received++ % 2)) schedule.retry(*range);
             context_.reportProgress();
+            if (schedule.settled()) context_.offerCheckpoint();
         }
         statistics.stopped = statistics.samples < context_.samplesTotal();
         context_.reportProgress();
+    }
+
+    std::vector<std::uint32_t> samplesOfSlots() const {
+        std::vector<std::uint32_t> samples;
+        samples.reserve(pixels_.size());
+        for (std::uint32_t pixel : pixels_)
+            samples.push_back(context_.film.samplesOf(pixel));
+        return samples;
     }
 
     /// Waits for a dispatch and adds up what it has traced; or returns what the driver has cut short, to be

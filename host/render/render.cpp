@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "host/base/error.h"
@@ -22,6 +23,11 @@ double meanDisplayed(const Film& film, glm::vec2 display) {
 }
 
 }  // namespace
+
+std::uint64_t RenderContext::samplesTotal() const {
+    const std::uint64_t all = (scene.render.spp - control.firstSample) * pixels();
+    return all - std::min(all, samplesResumed);
+}
 
 bool RenderContext::timeIsUp() const {
     return control.timeLimit && seconds() + kDispatchSeconds > *control.timeLimit;
@@ -46,6 +52,25 @@ void RenderContext::reportProgress() {
     const RenderProgress progress{statistics.samples, samplesTotal(), statistics.renderSeconds};
     const bool finished = progress.samplesDone == progress.samplesTotal;
     if (!control.onProgress(progress) && !finished) statistics.stopped = true;
+}
+
+void RenderContext::offerCheckpoint() {
+    const Clock::time_point now = Clock::now();
+    if (!control.onCheckpoint ||
+        now - lastCheckpoint < std::chrono::duration<double>(control.checkpointSeconds))
+        return;
+    summarise();
+    control.onCheckpoint(film, statistics);
+    lastCheckpoint = Clock::now();
+}
+
+void RenderContext::summarise() {
+    const double samples =
+        static_cast<double>(std::max<std::uint64_t>(samplesResumed + statistics.samples, 1));
+    statistics.lastBounceRadiance = lastBounce / samples;
+    statistics.previousBounceRadiance = previousBounce / samples;
+    statistics.meanRadiance = meanDisplayed(film, scene.display);
+    statistics.filmOverflowed = statistics.filmOverflowed || film.overflowed();
 }
 
 void RenderContext::failCutShort() const {
@@ -75,6 +100,16 @@ RenderOutput render(Device& device, const Scene& scene, const RenderControl& con
                           std::move(deviceScene),
                           Film(scene.render.width, scene.render.height, quantum),
                           {}};
+    if (control.resume != nullptr) {
+        const RenderState& state = *control.resume;
+        assert(state.film.quantum() == quantum && state.film.width() == scene.render.width &&
+               state.film.height() == scene.render.height);
+        context.film = state.film;
+        context.samplesResumed = state.film.totalSamples() + state.film.lightPaths();
+        context.lastBounce = state.lastBounceRadiance * static_cast<double>(context.samplesResumed);
+        context.previousBounce = state.previousBounceRadiance * static_cast<double>(context.samplesResumed);
+        context.statistics.filmOverflowed = state.filmOverflowed;
+    }
     RenderStatistics& statistics = context.statistics;
     statistics.buildSeconds = context.deviceScene.buildSeconds;
     statistics.uploadSeconds = context.deviceScene.uploadSeconds;
@@ -85,11 +120,7 @@ RenderOutput render(Device& device, const Scene& scene, const RenderControl& con
     } else {
         gather(context);
     }
-    const double samples = static_cast<double>(std::max<std::uint64_t>(statistics.samples, 1));
-    statistics.lastBounceRadiance = context.lastBounce / samples;
-    statistics.previousBounceRadiance = context.previousBounce / samples;
-    statistics.meanRadiance = meanDisplayed(context.film, scene.display);
-    statistics.filmOverflowed = statistics.filmOverflowed || context.film.overflowed();
+    context.summarise();
     return {std::move(context.film), statistics};
 }
 

@@ -15,8 +15,9 @@ namespace duolux {
 /// Where a render stands; passed to RenderControl::onProgress after every dispatch, or every few of light
 /// paths. Samples are light paths if the scene's integrator shoots.
 struct RenderProgress {
-    std::uint64_t samplesDone = 0, samplesTotal = 0;  ///< over all pixels
-    double seconds = 0.0;                             ///< since the first dispatch
+    /// Over all pixels, without what was resumed.
+    std::uint64_t samplesDone = 0, samplesTotal = 0;
+    double seconds = 0.0;  ///< since the first dispatch
 };
 
 /// How light from emitters to a surface is found.
@@ -26,7 +27,24 @@ enum class DirectLight : std::uint8_t {
     kClosedForm  ///< Lambert's polygon formula; only where DeviceScene::closedFormApplies
 };
 
+struct RenderStatistics;
+
+/// How far a render has come.
+struct RenderState {
+    Film film;
+    double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0;  ///< as in RenderStatistics
+    bool filmOverflowed = false;
+};
+
 struct RenderControl {
+    /// Samples [firstSample, spp) of every pixel, or the light paths of the same numbers times the number of
+    /// pixels.
+    std::uint32_t firstSample = 0;
+    /// To go on from: of the same scene, settings but spp, and firstSample.
+    const RenderState* resume = nullptr;
+    /// Called about every checkpointSeconds with what there is, from the rendering thread.
+    std::function<void(const Film&, const RenderStatistics&)> onCheckpoint;
+    double checkpointSeconds = 60.0;
     DirectLight directLight = DirectLight::kAuto;
     /// Called after every dispatch from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
@@ -75,9 +93,9 @@ struct RenderOutput {
     RenderStatistics statistics;
 };
 
-/// Renders the scene with its integrator. Throws UsageError if the direct light is asked for in closed form
-/// where there is none. Same scene, settings, seed and device give the same bits. Throws MachineError naming
-/// the stage and the driver if the device fails.
+/// Renders the scene with its integrator. The film holds what was resumed, too. Throws UsageError if the
+/// direct light is asked for in closed form where there is none. Same scene, settings, seed and device give
+/// the same bits. Throws MachineError naming the stage and the driver if the device fails.
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
 
 }  // namespace duolux

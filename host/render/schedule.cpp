@@ -2,18 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace duolux {
 
 namespace {
 
-constexpr std::uint32_t kFirstSlots = 256;  // before any speed is known
-constexpr std::uint32_t kGranularity = 64;  // runs are multiples of so many slots
+constexpr std::uint32_t kFirstSlots = 256;    // before any speed is known
+constexpr std::uint32_t kGranularity = 64;    // runs are multiples of so many slots
+constexpr std::uint32_t kBehindSlots = 2048;  // of a range that is resumed
 
 }  // namespace
 
-Schedule::Schedule(std::uint32_t slots, std::uint32_t spp, std::uint32_t maxSlots, std::uint32_t maxSamples)
-    : slots_(slots), spp_(spp), maxSlots_(maxSlots), maxSamples_(maxSamples) {}
+Schedule::Schedule(std::uint32_t slots, std::uint32_t firstSample, std::uint32_t endSample,
+                   std::uint32_t maxSlots, std::uint32_t maxSamples)
+    : slots_(slots),
+      firstSample_(firstSample),
+      endSample_(endSample),
+      maxSlots_(maxSlots),
+      maxSamples_(maxSamples),
+      passBegin_(firstSample),
+      passEnd_(firstSample + 1),
+      nextSample_(firstSample) {}
+
+void Schedule::resume(std::span<const std::uint32_t> taken) {
+    const std::uint32_t most = *std::max_element(taken.begin(), taken.end());
+    if (most == 0) return;
+    for (std::uint32_t begin = 0; begin < slots_;) {
+        std::uint32_t end = begin + 1;
+        while (end < slots_ && end - begin < std::min(kBehindSlots, maxSlots_) && taken[end] == taken[begin])
+            ++end;
+        for (std::uint32_t s = taken[begin]; s < most; s += maxSamples_)
+            behind_.push_back({begin, end - begin, firstSample_ + s, std::min(maxSamples_, most - s)});
+        begin = end;
+    }
+    std::reverse(behind_.begin(), behind_.end());  // taken from the back
+    passBegin_ = nextSample_ = firstSample_ + most;
+    passEnd_ = passBegin_ + std::min(maxSamples_, endSample_ - std::min(passBegin_, endSample_));
+}
 
 void Schedule::chooseRun(double secondsPerSample) {
     double slots = kFirstSlots;
@@ -28,19 +54,28 @@ void Schedule::chooseRun(double secondsPerSample) {
         std::min({slots, static_cast<double>(maxSlots_), static_cast<double>(slots_ - firstSlot_)}));
 }
 
-std::optional<WorkRange> Schedule::next(double secondsPerSample, std::uint32_t laneSamples,
-                                        bool firstPassOnly) {
-    for (std::size_t i = 0; i < retries_.size(); ++i) {
-        WorkRange& waiting = retries_[i];
-        if (firstPassOnly && waiting.firstSample > 0) continue;
-        WorkRange range = waiting;
-        range.samples = std::min(range.samples, laneSamples);
-        waiting.firstSample += range.samples;
-        waiting.samples -= range.samples;
-        if (waiting.samples == 0) retries_.erase(retries_.begin() + static_cast<std::ptrdiff_t>(i));
-        return range;
-    }
-    if (passBegin_ >= spp_ || (firstPassOnly && passBegin_ > 0)) return std::nullopt;
+std::optional<WorkRange> Schedule::take(std::vector<WorkRange>& waiting, std::uint32_t laneSamples,
+                                        Wanted wanted) const {
+    const auto fits = [&](const WorkRange& w) {
+        return wanted != Wanted::kFirstPass || w.firstSample == firstSample_;
+    };
+    const auto found = std::find_if(waiting.rbegin(), waiting.rend(), fits);
+    if (found == waiting.rend()) return std::nullopt;
+    WorkRange range = *found;
+    range.samples = std::min({range.samples, laneSamples, wanted == Wanted::kFirstPass ? 1u : range.samples});
+    found->firstSample += range.samples;
+    found->samples -= range.samples;
+    if (found->samples == 0) waiting.erase(std::next(found).base());
+    return range;
+}
+
+std::optional<WorkRange> Schedule::next(double secondsPerSample, std::uint32_t laneSamples, Wanted wanted) {
+    // All of what is to be traced again, in any case: it leaves gaps.
+    if (const auto range = take(retries_, laneSamples, Wanted::kAll)) return range;
+    if (wanted == Wanted::kRetries) return std::nullopt;
+    if (const auto range = take(behind_, laneSamples, wanted)) return range;
+    if (passBegin_ >= endSample_ || (wanted == Wanted::kFirstPass && passBegin_ > firstSample_))
+        return std::nullopt;
     if (nextSample_ == passBegin_) chooseRun(secondsPerSample);
     const WorkRange range{firstSlot_, runSlots_, nextSample_,
                           std::min({runSamples_, laneSamples, passEnd_ - nextSample_})};
@@ -50,7 +85,7 @@ std::optional<WorkRange> Schedule::next(double secondsPerSample, std::uint32_t l
         if (firstSlot_ == slots_) {
             firstSlot_ = 0;
             passBegin_ = passEnd_;
-            passEnd_ += std::min(maxSamples_, spp_ - passBegin_);
+            passEnd_ += std::min(maxSamples_, endSample_ - passBegin_);
         }
         nextSample_ = passBegin_;
     }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace duolux {
@@ -18,31 +19,48 @@ struct WorkRange {
 /// its cost.
 inline constexpr double kDispatchSeconds = 0.1;
 
+/// What a schedule is asked for.
+enum class Wanted : std::uint8_t {
+    kAll,
+    kFirstPass,  ///< the first sample of every slot, which everything else can do without
+    kRetries     ///< only what is to be traced again, so that no slot's samples have gaps
+};
+
 /// Cuts the work into dispatches: a first pass of one sample for every slot, then passes of several, each in
 /// runs of slots whose size follows the measured speed. What is stopped early has about as many samples
 /// everywhere.
 class Schedule {
   public:
-    /// At most maxSlots slots and maxSamples samples of a slot in one dispatch.
-    Schedule(std::uint32_t slots, std::uint32_t spp, std::uint32_t maxSlots, std::uint32_t maxSamples);
+    /// Samples [firstSample, endSample) of every slot. At most maxSlots slots and maxSamples samples of a
+    /// slot in one dispatch.
+    Schedule(std::uint32_t slots, std::uint32_t firstSample, std::uint32_t endSample, std::uint32_t maxSlots,
+             std::uint32_t maxSamples);
+
+    /// Goes on from a state in which so many samples of each slot have been taken, from firstSample on.
+    /// Before anything was handed out.
+    void resume(std::span<const std::uint32_t> taken);
 
     /// The next range, of at most `laneSamples` samples of a slot; nothing when all have been handed out.
-    /// `secondsPerSample`: measured so far, 0: not yet. `firstPassOnly`: only work of the first pass, which
-    /// everything else can do without.
-    std::optional<WorkRange> next(double secondsPerSample, std::uint32_t laneSamples, bool firstPassOnly);
+    /// `secondsPerSample`: measured so far, 0: not yet.
+    std::optional<WorkRange> next(double secondsPerSample, std::uint32_t laneSamples, Wanted wanted);
 
     /// Takes back a range that was handed out and has to be traced again.
     void retry(const WorkRange& range) { retries_.push_back(range); }
 
+    /// Nothing waits to be traced again.
+    bool settled() const { return retries_.empty(); }
+
   private:
     void chooseRun(double secondsPerSample);
+    std::optional<WorkRange> take(std::vector<WorkRange>& waiting, std::uint32_t laneSamples,
+                                  Wanted wanted) const;
 
-    std::uint32_t slots_, spp_, maxSlots_, maxSamples_;
-    std::uint32_t passBegin_ = 0, passEnd_ = 1;    // the samples of the pass under way
+    std::uint32_t slots_, firstSample_, endSample_, maxSlots_, maxSamples_;
+    std::uint32_t passBegin_, passEnd_;            // the samples of the pass under way
     std::uint32_t firstSlot_ = 0;                  // of the run of slots under way
     std::uint32_t runSlots_ = 0, runSamples_ = 0;  // its size, and the most samples in one dispatch
-    std::uint32_t nextSample_ = 0;
-    std::vector<WorkRange> retries_;
+    std::uint32_t nextSample_;
+    std::vector<WorkRange> retries_, behind_;  // behind_: what slots lack of what others have had
 };
 
 }  // namespace duolux

@@ -63,6 +63,7 @@ class Shooter {
                 dispatches = 1;
             }
             context_.reportProgress();
+            context_.offerCheckpoint();
         }
         statistics.stopped = statistics.samples < context_.samplesTotal();
         context_.reportProgress();
@@ -70,7 +71,12 @@ class Shooter {
 
     /// A path per pixel is traced in any case.
     bool finishEarly() const {
-        return context_.timeIsUp() && context_.statistics.samples >= context_.pixels();
+        return context_.timeIsUp() && context_.film.lightPaths() >= context_.pixels();
+    }
+
+    /// The number of the first path that has not been traced.
+    std::uint64_t nextPath() const {
+        return context_.control.firstSample * context_.pixels() + context_.film.lightPaths();
     }
 
     std::uint32_t dispatchPaths(const LightKernel& kernel, std::uint64_t left) const {
@@ -83,14 +89,15 @@ class Shooter {
 
     Batch traceBatch(LightKernel& kernel, std::uint32_t dispatches) {
         Batch batch;
-        std::uint64_t next = context_.statistics.samples;
+        const std::uint64_t end = nextPath() + context_.samplesTotal() - context_.statistics.samples;
+        std::uint64_t next = nextPath();
         unsigned submitted = 0;
         unsigned received = 0;
         for (;;) {
             // Keep two dispatches in flight, so that the device never waits.
-            while (submitted - received < 2 && submitted < dispatches && next < context_.samplesTotal() &&
-                   batch.complete && !(submitted > 0 && finishEarly())) {
-                const PathRange range{next, dispatchPaths(kernel, context_.samplesTotal() - next)};
+            while (submitted - received < 2 && submitted < dispatches && next < end && batch.complete &&
+                   !(submitted > 0 && finishEarly())) {
+                const PathRange range{next, dispatchPaths(kernel, end - next)};
                 kernel.submit(submitted++ % 2, range);
                 next += range.count;
             }

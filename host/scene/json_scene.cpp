@@ -75,7 +75,7 @@ void readFilm(const JsonNode& node, RenderSettings& render) {
 }
 
 void readRender(const JsonNode& node, RenderSettings& render) {
-    node.expectKeys({"spp", "bounces", "seed", "sampler"});
+    node.expectKeys({"spp", "bounces", "seed", "sampler", "integrator"});
     if (const auto spp = node.find("spp")) render.spp = spp->integer(1, 1u << 24);
     if (const auto bounces = node.find("bounces")) render.bounces = bounces->integer(0, 65535);
     if (const auto seed = node.find("seed")) {
@@ -84,6 +84,10 @@ void readRender(const JsonNode& node, RenderSettings& render) {
     if (const auto sampler = node.find("sampler")) {
         static const std::array<std::string, 2> kNames{"sobol", "independent"};
         render.sampler = sampler->choice(kNames) == 0 ? Sampler::kSobol : Sampler::kIndependent;
+    }
+    if (const auto integrator = node.find("integrator")) {
+        static const std::array<std::string, 2> kNames{"path", "light"};
+        render.integrator = integrator->choice(kNames) == 0 ? Integrator::kPath : Integrator::kLight;
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "host/render/schedule.h"
 
@@ -28,10 +29,10 @@ void expectEachOnce(const Counts& counts, std::size_t slots, std::size_t samples
 TEST(Schedule, HandsOutEachSampleOnceAtAnySpeed) {
     for (const double seconds : {0.0, 1e-9, 1e-6, 1e-4, 1.0}) {
         for (const std::uint32_t lane : {1u, 3u, 128u}) {
-            Schedule schedule(700, 21, 300, 16);
+            Schedule schedule(700, 0, 21, 300, 16);
             Counts counts;
             std::uint32_t firstSampleSlots = 0;
-            while (const auto range = schedule.next(seconds, lane, false)) {
+            while (const auto range = schedule.next(seconds, lane, Wanted::kAll)) {
                 EXPECT_LE(range->slots, 300u);
                 EXPECT_LE(range->samples, std::min(lane, 16u));
                 EXPECT_LE(static_cast<double>(range->size()) * seconds,
@@ -50,25 +51,25 @@ TEST(Schedule, HandsOutEachSampleOnceAtAnySpeed) {
 }
 
 TEST(Schedule, RunsTakeAboutTheTimeOfADispatch) {
-    Schedule schedule(1u << 20, 100, 1u << 18, 16);
-    while (schedule.next(2e-6, 128, false)->firstSample == 0) {
+    Schedule schedule(1u << 20, 0, 100, 1u << 18, 16);
+    while (schedule.next(2e-6, 128, Wanted::kAll)->firstSample == 0) {
     }
-    const WorkRange range = *schedule.next(2e-6, 128, false);
+    const WorkRange range = *schedule.next(2e-6, 128, Wanted::kAll);
     EXPECT_EQ(range.samples, 16u);
     EXPECT_NEAR(static_cast<double>(range.size()) * 2e-6, kDispatchSeconds, 0.05 * kDispatchSeconds);
     // Where one sample is slow, few are taken of few slots.
-    Schedule slow(1000, 100, 1000, 16);
-    while (slow.next(1e-3, 128, false)->firstSample == 0) {
+    Schedule slow(1000, 0, 100, 1000, 16);
+    while (slow.next(1e-3, 128, Wanted::kAll)->firstSample == 0) {
     }
-    EXPECT_LE(slow.next(1e-3, 128, false)->size(), 128u);
+    EXPECT_LE(slow.next(1e-3, 128, Wanted::kAll)->size(), 128u);
 }
 
 TEST(Schedule, ChangesOfTheLimitWithinARunLoseNothing) {
-    Schedule schedule(500, 40, 500, 16);
+    Schedule schedule(500, 0, 40, 500, 16);
     Counts counts;
     const std::uint32_t limits[] = {128, 5, 7, 2, 128, 1, 3, 16};
     std::size_t i = 0;
-    while (const auto range = schedule.next(1e-5 * static_cast<double>(i % 5), limits[i % 8], false)) {
+    while (const auto range = schedule.next(1e-5 * static_cast<double>(i % 5), limits[i % 8], Wanted::kAll)) {
         count(counts, *range);
         ++i;
     }
@@ -76,13 +77,13 @@ TEST(Schedule, ChangesOfTheLimitWithinARunLoseNothing) {
 }
 
 TEST(Schedule, RetriesComeInPartsThatFit) {
-    Schedule schedule(100, 17, 100, 16);
+    Schedule schedule(100, 0, 17, 100, 16);
     Counts counts;
-    count(counts, *schedule.next(0.0, 128, false));
-    const WorkRange cut = *schedule.next(0.0, 128, false);
+    count(counts, *schedule.next(0.0, 128, Wanted::kAll));
+    const WorkRange cut = *schedule.next(0.0, 128, Wanted::kAll);
     EXPECT_EQ(cut.samples, 16u);
     schedule.retry(cut);
-    while (const auto range = schedule.next(0.0, 5, false)) {
+    while (const auto range = schedule.next(0.0, 5, Wanted::kAll)) {
         EXPECT_LE(range->samples, 5u);
         count(counts, *range);
     }
@@ -90,20 +91,62 @@ TEST(Schedule, RetriesComeInPartsThatFit) {
 }
 
 TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
-    Schedule schedule(600, 9, 256, 16);
+    Schedule schedule(600, 0, 9, 256, 16);
     Counts counts;
-    const WorkRange first = *schedule.next(0.0, 128, false);
+    const WorkRange first = *schedule.next(0.0, 128, Wanted::kAll);
     schedule.retry(first);
-    while (const auto range = schedule.next(0.0, 128, true)) {
+    while (const auto range = schedule.next(0.0, 128, Wanted::kFirstPass)) {
         EXPECT_EQ(range->firstSample, 0u);
         count(counts, *range);
     }
     expectEachOnce(counts, 600, 1);
-    // A range of a later pass waits in vain, one of the first does not.
-    schedule.retry({0, 10, 3, 2});
-    EXPECT_FALSE(schedule.next(0.0, 128, true));
-    schedule.retry({0, 10, 0, 1});
-    EXPECT_EQ(schedule.next(0.0, 128, true)->firstSample, 0u);
+    EXPECT_FALSE(schedule.next(0.0, 128, Wanted::kFirstPass));
+    // What is to be traced again is, whatever its pass: its slots must not be left with gaps.
+    for (const Wanted wanted : {Wanted::kFirstPass, Wanted::kRetries}) {
+        EXPECT_TRUE(schedule.settled());
+        schedule.retry({0, 10, 3, 2});
+        EXPECT_FALSE(schedule.settled());
+        EXPECT_EQ(schedule.next(0.0, 128, wanted)->firstSample, 3u);
+        EXPECT_FALSE(schedule.next(0.0, 128, wanted));
+    }
+}
+
+TEST(Schedule, GoesOnFromAnyState) {
+    constexpr std::uint32_t kFirst = 5, kEnd = 40;
+    const auto resumed = [](const std::vector<std::uint32_t>& taken) {
+        Counts counts;
+        for (std::uint32_t slot = 0; slot < taken.size(); ++slot) {
+            if (taken[slot] > 0) count(counts, {slot, 1, kFirst, taken[slot]});
+        }
+        Schedule schedule(static_cast<std::uint32_t>(taken.size()), kFirst, kEnd, 100, 16);
+        schedule.resume(taken);
+        while (const auto range = schedule.next(1e-5, 11, Wanted::kAll)) {
+            EXPECT_LE(range->slots, 100u);
+            EXPECT_LE(range->samples, 11u);
+            count(counts, *range);
+        }
+        expectEachOnce(counts, taken.size(), kEnd - kFirst);
+    };
+    resumed(std::vector<std::uint32_t>(300, 0));
+    resumed(std::vector<std::uint32_t>(300, 7));
+    resumed(std::vector<std::uint32_t>(300, kEnd - kFirst));
+    std::vector<std::uint32_t> uneven(300, 17);
+    std::fill(uneven.begin() + 130, uneven.begin() + 150, 1);
+    std::fill(uneven.begin() + 150, uneven.end(), 0);
+    resumed(uneven);
+    uneven[299] = kEnd - kFirst;
+    resumed(uneven);
+
+    // When time is up slots without a sample get their first, and no more.
+    Schedule schedule(300, kFirst, kEnd, 100, 16);
+    schedule.resume(uneven);
+    Counts counts;
+    while (const auto range = schedule.next(0.0, 128, Wanted::kFirstPass))
+        count(counts, *range);
+    EXPECT_EQ(counts.size(), 149u);
+    for (const auto& [work, times] : counts) {
+        EXPECT_TRUE(work.first >= 150 && work.first < 299 && work.second == kFirst && times == 1);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "host/app/commands.h"
+#include "host/app/film_images.h"
+#include "host/app/options.h"
+#include "host/base/error.h"
+#include "host/render/checkpoint.h"
+
+namespace duolux {
+
+namespace {
+
+struct MergeOptions {
+    std::vector<std::string> outputs, parts;
+    float exposure = 0.0f;
+};
+
+/// The range of samples of a part.
+struct Part {
+    std::uint32_t first, end;
+    std::string file;
+};
+
+/// Throws InputError if two parts share samples: their noise would count twice.
+void requireDisjoint(const Part& part, const std::vector<Part>& others) {
+    for (const Part& other : others) {
+        const std::uint32_t first = std::max(part.first, other.first), end = std::min(part.end, other.end);
+        if (first >= end) continue;
+        throw InputError(part.file, "",
+                         fmt::format("has samples {} to {}, which {} has, too", first, end - 1, other.file),
+                         "expected parts of different --sample-range");
+    }
+}
+
+void runMerge(const MergeOptions& options) {
+    std::vector<OutputFile> files;
+    for (const std::string& output : options.outputs)
+        files.push_back({"-o", output});
+    checkOutputs(files, options.parts);
+    std::optional<Checkpoint> sum;
+    std::vector<Part> parts;
+    for (const std::string& file : options.parts) {
+        Checkpoint part = readCheckpoint(file);
+        if (sum) requireSameOrigin(file, part.origin, sum->origin, options.parts.front());
+        requireDisjoint({part.origin.firstSample, part.origin.settings.spp, file}, parts);
+        parts.push_back({part.origin.firstSample, part.origin.settings.spp, file});
+        if (sum) {
+            sum->state.film.add(part.state.film);
+            sum->state.filmOverflowed = sum->state.filmOverflowed || part.state.filmOverflowed;
+        } else {
+            sum = std::move(part);
+        }
+    }
+    if (sum->state.filmOverflowed || sum->state.film.overflowed()) {
+        fmt::print(stderr,
+                   "duolux: warning: some pixels are brighter than the film can hold and were clamped\n");
+    }
+    writeImages(options.outputs, sum->state.film.resolve(),
+                filmImageOptions(sum->origin, sum->state.film, options.exposure));
+}
+
+}  // namespace
+
+void addMergeCommand(CLI::App& app) {
+    const auto options = std::make_shared<MergeOptions>();
+    CLI::App* command =
+        app.add_subcommand("merge", "Sum partial renders, the same as one of all their samples");
+    command
+        ->add_option("-o,--output", options->outputs,
+                     "Image to write: .exr, .png or .pfm; may be given several times")
+        ->required()
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->take_all();
+    command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")
+        ->type_name("STOPS")
+        ->check(between(-64.0, 64.0));
+    command
+        ->add_option("PART", options->parts,
+                     "Checkpoints of one scene with the same settings, but different --sample-range")
+        ->required()
+        ->type_name("");
+    command->callback([options] { runMerge(*options); });
+}
+
+}  // namespace duolux

@@ -1,0 +1,202 @@
+#include "host/render/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/base/version.h"
+
+namespace duolux {
+
+namespace {
+
+// The file: kMagic, the length of the header as uint32, the header (JSON), samples per pixel (uint32), sums of
+// pixels, sums of light paths if there are any (six int64 a pixel each), and a checksum of all before it (uint64).
+// Little-endian, as all hosts are.
+constexpr char kMagic[9] = "DUOLUXC1";
+constexpr std::size_t kMagicBytes = 8;
+
+/// FNV-1a over 64-bit words (Fowler, Noll, Vo), the last one filled up with zeros: against damage, not malice.
+std::uint64_t checksum(std::string_view bytes) {
+    std::uint64_t hash = 0xcbf29ce484222325ull;
+    for (std::size_t i = 0; i < bytes.size(); i += 8) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
+        hash = (hash ^ word) * 0x100000001b3ull;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+template <typename T>
+void append(std::string& out, std::span<const T> items) {
+    out.append(reinterpret_cast<const char*>(items.data()), items.size_bytes());
+}
+
+/// Takes items off the front of the bytes.
+template <typename T>
+std::vector<T> take(std::string_view& bytes, std::size_t count) {
+    std::vector<T> items(count);
+    std::memcpy(items.data(), bytes.data(), count * sizeof(T));
+    bytes.remove_prefix(count * sizeof(T));
+    return items;
+}
+
+const char* name(Integrator integrator) {
+    return integrator == Integrator::kLight ? "light" : "path";
+}
+
+const char* name(Sampler sampler) {
+    return sampler == Sampler::kIndependent ? "independent" : "sobol";
+}
+
+const char* name(DirectLight directLight) {
+    return directLight == DirectLight::kClosedForm ? "closed-form" : "sampled";
+}
+
+std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderStatistics& statistics) {
+    const RenderSettings& settings = origin.settings;
+    nlohmann::ordered_json header;
+    header["program"] = fmt::format("duolux {} ({})", versionString(), commitString());
+    header["scene"] = {{"file", origin.sceneFile},
+                       {"hash", origin.sceneHash},
+                       {"reflectance", origin.reflectance},
+                       {"display", {origin.display.x, origin.display.y}}};
+    header["settings"] = {{"width", settings.width},
+                          {"height", settings.height},
+                          {"bounces", settings.bounces},
+                          {"seed", settings.seed},
+                          {"sampler", name(settings.sampler)},
+                          {"integrator", name(settings.integrator)},
+                          {"direct_light", name(origin.directLight)},
+                          {"first_sample", origin.firstSample},
+                          {"end_sample", settings.spp}};
+    header["film"] = {{"quantum", film.quantum()},
+                      {"light_paths", film.lightPaths()},
+                      {"light_sums", !film.lightSums().empty()},
+                      {"overflowed", statistics.filmOverflowed || film.overflowed()},
+                      {"last_bounce", statistics.lastBounceRadiance},
+                      {"previous_bounce", statistics.previousBounceRadiance}};
+    return header.dump();
+}
+
+FilmOrigin originFrom(const nlohmann::json& header) {
+    const nlohmann::json& scene = header.at("scene");
+    const nlohmann::json& settings = header.at("settings");
+    FilmOrigin origin;
+    origin.sceneFile = scene.at("file").get<std::string>();
+    origin.sceneHash = scene.at("hash").get<std::string>();
+    origin.reflectance = scene.at("reflectance").get<std::string>();
+    origin.display = {scene.at("display").at(0).get<float>(), scene.at("display").at(1).get<float>()};
+    settings.at("width").get_to(origin.settings.width);
+    settings.at("height").get_to(origin.settings.height);
+    settings.at("bounces").get_to(origin.settings.bounces);
+    settings.at("seed").get_to(origin.settings.seed);
+    settings.at("end_sample").get_to(origin.settings.spp);
+    settings.at("first_sample").get_to(origin.firstSample);
+    origin.settings.sampler =
+        settings.at("sampler") == name(Sampler::kIndependent) ? Sampler::kIndependent : Sampler::kSobol;
+    origin.settings.integrator =
+        settings.at("integrator") == name(Integrator::kLight) ? Integrator::kLight : Integrator::kPath;
+    origin.directLight = settings.at("direct_light") == name(DirectLight::kClosedForm)
+                             ? DirectLight::kClosedForm
+                             : DirectLight::kSampled;
+    return origin;
+}
+
+Checkpoint parse(std::string_view bytes, const std::function<void()>& fail) {
+    std::uint32_t headerBytes = 0;
+    std::memcpy(&headerBytes, bytes.data() + kMagicBytes, sizeof headerBytes);
+    bytes.remove_prefix(kMagicBytes + sizeof headerBytes);
+    bytes.remove_suffix(sizeof(std::uint64_t));
+    if (headerBytes > bytes.size()) fail();
+    const nlohmann::json header = nlohmann::json::parse(bytes.substr(0, headerBytes));
+    bytes.remove_prefix(headerBytes);
+    FilmOrigin origin = originFrom(header);
+    const nlohmann::json& film = header.at("film");
+    const auto& [width, height] = std::pair(origin.settings.width, origin.settings.height);
+    const std::size_t pixels = std::size_t{width} * height;
+    const bool light = film.at("light_sums").get<bool>();
+    if (bytes.size() != pixels * (sizeof(std::uint32_t) + (light ? 2 : 1) * sizeof(Film::PixelSum))) fail();
+    auto samples = take<std::uint32_t>(bytes, pixels);
+    auto sums = take<Film::PixelSum>(bytes, pixels);
+    auto lightSums = light ? take<Film::PixelSum>(bytes, pixels) : std::vector<Film::PixelSum>();
+    return {std::move(origin),
+            {Film(width, height, film.at("quantum").get<float>(), std::move(sums), std::move(samples),
+                  std::move(lightSums), film.at("light_paths").get<std::uint64_t>()),
+             film.at("last_bounce").get<double>(), film.at("previous_bounce").get<double>(),
+             film.at("overflowed").get<bool>()}};
+}
+
+}  // namespace
+
+FilmOrigin originOf(const Scene& scene, std::uint32_t firstSample, bool directLightInClosedForm) {
+    return {scene.source.string(),
+            scene.hash,
+            describeReflectance(scene.reflectance),
+            scene.render,
+            directLightInClosedForm ? DirectLight::kClosedForm : DirectLight::kSampled,
+            scene.display,
+            firstSample};
+}
+
+void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin, const Film& film,
+                     const RenderStatistics& statistics) {
+    const std::string header = headerOf(origin, film, statistics);
+    const auto headerBytes = static_cast<std::uint32_t>(header.size());
+    std::string bytes(kMagic, kMagicBytes);
+    append(bytes, std::span(&headerBytes, 1));
+    bytes += header;
+    append(bytes, film.samples());
+    append(bytes, film.sums());
+    append(bytes, film.lightSums());
+    const std::uint64_t sum = checksum(bytes);
+    append(bytes, std::span(&sum, 1));
+    writeTextFile(path, bytes);
+}
+
+Checkpoint readCheckpoint(const std::filesystem::path& path) {
+    const std::string bytes = readFile(path);
+    const auto fail = [&](const char* problem) {
+        throw InputError(path.string(), "", problem, "expected a file that --checkpoint has written");
+    };
+    std::uint64_t sum = 0;
+    if (bytes.size() < kMagicBytes + sizeof(std::uint32_t) + sizeof sum ||
+        bytes.compare(0, kMagicBytes - 1, kMagic, kMagicBytes - 1) != 0) {
+        fail("is no checkpoint");
+    }
+    if (bytes[kMagicBytes - 1] != kMagic[kMagicBytes - 1]) fail("is a checkpoint of another version");
+    const std::string_view content(bytes.data(), bytes.size() - sizeof sum);
+    std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
+    if (sum != checksum(content)) fail("is damaged or incomplete: its checksum is wrong");
+    try {
+        return parse(bytes, [&] { fail("is damaged: its parts do not fit"); });
+    } catch (const nlohmann::json::exception&) {
+        fail("is damaged: its header cannot be read");
+        throw;
+    }
+}
+
+void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& origin, const FilmOrigin& wanted,
+                       const std::string& wantedFrom) {
+    const auto require = [&](const char* what, const auto& here, const auto& there) {
+        if (here == there) return;
+        throw InputError(file.string(), what, fmt::format("is {}, but {} of {}", here, there, wantedFrom),
+                         "expected the same scene and settings");
+    };
+    const RenderSettings &a = origin.settings, &b = wanted.settings;
+    require("size", fmt::format("{}x{}", a.width, a.height), fmt::format("{}x{}", b.width, b.height));
+    require("reflectance", origin.reflectance, wanted.reflectance);
+    require("scene hash", origin.sceneHash, wanted.sceneHash);
+    require("integrator", std::string(name(a.integrator)), std::string(name(b.integrator)));
+    require("bounces", a.bounces, b.bounces);
+    require("seed", a.seed, b.seed);
+    require("sampler", std::string(name(a.sampler)), std::string(name(b.sampler)));
+    require("direct light", std::string(name(origin.directLight)), std::string(name(wanted.directLight)));
+}
+
+}  // namespace duolux
