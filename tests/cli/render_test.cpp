@@ -108,6 +108,22 @@ TEST_F(RenderCommand, ReportHasWhatTheContractAsksFor) {
     EXPECT_FALSE(report["program"]["commit"].get<std::string>().empty());
 }
 
+TEST_F(RenderCommand, ReportOfLightPaths) {
+    const ProgramResult result = render({"--integrator", "light", "--size", "32x24", "--spp", "3", "--quiet",
+                                         "-o", "a.exr", "--report", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report["settings"]["integrator"], "light");
+    EXPECT_GT(report["device_seconds"]["light"], 0.0);
+    EXPECT_EQ(report["samples"]["taken"], 32 * 24 * 3);
+    EXPECT_EQ(report["rays"]["light"], 32 * 24 * 3);
+    EXPECT_EQ(report["rays"]["camera"], 0);
+    EXPECT_GT(report["rays"]["shadow"], 0);
+    EXPECT_GT(report["radiance"]["mean"], 0.0);
+    const std::string metadata = contentsOf(folder_.path() / "a.exr").substr(0, 2000);
+    EXPECT_THAT(metadata, HasSubstr("integrator"));
+}
+
 TEST_F(RenderCommand, LocalSendsNoShadowRays) {
     const ProgramResult result =
         render({"--preset", "local", "--size", "16x16", "--spp", "2", "--report", "-", "-o", "a.png"});

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "host/base/error.h"
 #include "host/render/render.h"
+#include "tests/statistical/films.h"
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
 #include "tests/support/exact_case.h"
@@ -29,20 +29,6 @@ Scene scene(std::uint32_t seed = 5) {
 
 Film filmOf(const Scene& what, const RenderControl& control = {}) {
     return render(device(), what, control).film;
-}
-
-bool sameBits(const Film& a, const Film& b) {
-    const auto equal = [](const Film::PixelSum& p, const Film::PixelSum& q) {
-        return std::ranges::equal(p.invisible, q.invisible) && std::ranges::equal(p.visible, q.visible);
-    };
-    return a.quantum() == b.quantum() && a.totalSamples() == b.totalSamples() &&
-           a.lightPaths() == b.lightPaths() && std::ranges::equal(a.sums(), b.sums(), equal) &&
-           std::ranges::equal(a.lightSums(), b.lightSums(), equal);
-}
-
-Scene byLight(Scene scene) {
-    scene.render.integrator = Integrator::kLight;
-    return scene;
 }
 
 TEST(Determinism, SameSeedSameBits) {
@@ -107,6 +93,23 @@ TEST(Determinism, TheFilmOfLightPathsIsTheSameInAnyBuffers) {
     }
     control.filmBandPixels = 30;
     EXPECT_THROW(filmOf(byLight(scene()), control), MachineError);
+}
+
+TEST(Determinism, LightPathsAreNumberedBeyond32Bits) {
+    Scene far = byLight(scene());
+    far.render.width = 32;
+    far.render.height = 16;
+    const auto film = [&](std::uint32_t first, std::uint32_t pathsPerDispatch) {
+        RenderControl control;
+        control.firstSample = first;
+        control.maxPixelsPerDispatch = pathsPerDispatch;
+        far.render.spp = first + 4;
+        return filmOf(far, control);
+    };
+    constexpr std::uint32_t kBeyond = 1u << 23;  // times 512 pixels: path 2^32
+    const Film across = film(kBeyond - 2, 0);
+    EXPECT_TRUE(sameBits(across, film(kBeyond - 2, 700)));  // the number passes 2^32 within a dispatch
+    EXPECT_FALSE(sameBits(film(kBeyond, 0), film(0, 0)));
 }
 
 TEST(Determinism, LightPathsOfManyCrossingsAreWhole) {

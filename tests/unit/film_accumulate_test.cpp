@@ -44,6 +44,39 @@ TEST(Film, ResolvesToTheMeanOfEachPixel) {
     EXPECT_FALSE(film.overflowed());
 }
 
+TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
+    Film film(2, 1, 0.5f);
+    const Film::PixelSum light[] = {{{8, 0, 4}, {16, 2, 0}}, {{0, 0, 0}, {6, 0, 0}}};
+    film.addLight(light, 3);
+    film.addLight({}, 5);  // dark ones
+    EXPECT_EQ(film.lightPaths(), 8u);
+    EXPECT_EQ(film.totalSamples(), 0u);
+    // 8 paths are 4 for each of the two pixels.
+    const RadianceImage image = film.resolve();
+    EXPECT_EQ(image.invisible[0], glm::vec3(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(image.visible[0], glm::vec3(2.0f, 0.25f, 0.0f));
+    EXPECT_EQ(image.visible[1], glm::vec3(0.75f, 0.0f, 0.0f));
+
+    // With samples of the pixels both are means of their own, and add up.
+    const std::uint32_t both[] = {0, 1};
+    const Film::PixelSum gathered[] = {{{2, 0, 0}, {4, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
+    film.add(both, gathered, 2);
+    EXPECT_EQ(film.resolve().invisible[0], glm::vec3(1.5f, 0.0f, 0.5f));
+    EXPECT_EQ(film.resolve().visible[1], glm::vec3(0.75f, 0.0f, 0.0f));
+
+    Film twice = film;
+    twice.add(film);
+    EXPECT_EQ(twice.lightPaths(), 16u);
+    EXPECT_EQ(twice.totalSamples(), 8u);
+    EXPECT_EQ(twice.resolve().visible, film.resolve().visible);
+
+    const Film::PixelSum most[] = {{{kMax, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
+    EXPECT_FALSE(film.overflowed());
+    film.addLight(most, 1);
+    EXPECT_TRUE(film.overflowed());
+    EXPECT_EQ(film.lightSums()[0].invisible[0], kMax);
+}
+
 TEST(Film, SaturatesOnOverflowAndTells) {
     const std::uint32_t pixel[] = {0};
     Film high(1, 1, 1.0f);

@@ -51,6 +51,16 @@ TEST(Transport, PartialTransmissionIsGeneral) {
               shared::kTransmittanceGeneral);
 }
 
+TEST(Transport, LightOnItsWayToTheCameraHasBothComponents) {
+    for (const Preset& preset : presets())
+        EXPECT_EQ(traitsOf(preset.name).cameraTransmittance, traitsOf(preset.name).transmittance);
+    // Invisible light that is made visible by a crossing is lost on surfaces, but not on the camera.
+    Reflectance glowing = *presetReflectance("local");
+    glowing.transparent.m10 = {0.0f, 0.0f, 0.5f};
+    EXPECT_EQ(analyseTransport(sceneWith(glowing)).transmittance, shared::kTransmittanceIdentity);
+    EXPECT_EQ(analyseTransport(sceneWith(glowing)).cameraTransmittance, shared::kTransmittanceGeneral);
+}
+
 TEST(Transport, OneOpaqueMaterialMakesShadows) {
     Scene scene = sceneWith(*presetReflectance("shadowless"));
     scene.materials[1].reflectance = presetReflectance("global");

@@ -1,0 +1,97 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "tests/cli/run_program.h"
+
+// Renders in parts, as a user runs them, have the same bytes as one in one go.
+
+namespace duolux::test {
+namespace {
+
+using testing::HasSubstr;
+
+class CheckpointCommands : public testing::TestWithParam<const char*> {
+  protected:
+    ProgramResult render(std::vector<std::string> arguments,
+                         std::optional<ProgramSignal> signal = std::nullopt) {
+        arguments.insert(arguments.begin(),
+                         {"render", DUOLUX_ASSETS "/cornell/cornell.json", "--quiet", "--device", "cpu",
+                          "--size", "48x32", "--integrator", GetParam()});
+        return runDuolux(folder_.path(), arguments, signal);
+    }
+    ProgramResult run(const std::vector<std::string>& arguments) {
+        return runDuolux(folder_.path(), arguments);
+    }
+    std::string bytes(const std::string& name) { return contentsOf(folder_.path() / name); }
+    bool exists(const std::string& name) { return std::filesystem::exists(folder_.path() / name); }
+
+    TemporaryFolder folder_;
+};
+
+TEST_P(CheckpointCommands, MergeOfPartsIsTheWhole) {
+    ASSERT_EQ(render({"--spp", "20", "-o", "whole.exr"}).status, 0);
+    for (const char* range : {"0:3", "3:4", "4:20"}) {
+        const ProgramResult part = render({"--spp", "20", "--sample-range", range, "--checkpoint",
+                                           std::string(range).substr(0, 1), "-o", "part.exr"});
+        ASSERT_EQ(part.status, 0) << part.err;
+        EXPECT_NE(bytes("part.exr"), bytes("whole.exr"));
+    }
+    const ProgramResult merged = run({"merge", "-o", "sum.exr", "4", "0", "3"});
+    ASSERT_EQ(merged.status, 0) << merged.err;
+    EXPECT_EQ(bytes("sum.exr"), bytes("whole.exr"));
+
+    const ProgramResult overlap = run({"merge", "-o", "none.exr", "4", "4"});
+    EXPECT_EQ(overlap.status, 3);
+    EXPECT_THAT(overlap.err, HasSubstr("4: has samples 4 to 19, which 4 has, too"));
+    const ProgramResult image = run({"merge", "-o", "none.exr", "whole.exr"});
+    EXPECT_EQ(image.status, 3);
+    EXPECT_THAT(image.err, HasSubstr("whole.exr: is no checkpoint"));
+    EXPECT_FALSE(exists("none.exr"));
+}
+
+TEST_P(CheckpointCommands, AnInterruptedRenderGoesOnAsIfNothingHadHappened) {
+    const ProgramResult interruptedRender =
+        render({"--spp", "100000", "--checkpoint", "state", "-o", "some.png"},
+               ProgramSignal{SIGINT, std::chrono::milliseconds(700)});
+    ASSERT_EQ(interruptedRender.status, 130) << interruptedRender.err;
+    ASSERT_TRUE(exists("state"));
+    // A few more than it had, and from the file that it replaces.
+    const std::size_t taken =
+        std::stoul(interruptedRender.err.substr(interruptedRender.err.find("what there is, ") + 15));
+    const std::string spp = std::to_string(taken / (48 * 32) + 40);
+    const ProgramResult resumed =
+        render({"--spp", spp, "--resume", "state", "--checkpoint", "state", "-o", "resumed.exr"});
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    const ProgramResult again = render({"--spp", spp, "--resume", "state", "-o", "again.exr"});
+    ASSERT_EQ(again.status, 0) << again.err;
+    ASSERT_EQ(render({"--spp", spp, "-o", "whole.exr"}).status, 0);
+    EXPECT_EQ(bytes("resumed.exr"), bytes("whole.exr"));
+    EXPECT_EQ(bytes("again.exr"), bytes("whole.exr"));
+}
+
+TEST_P(CheckpointCommands, ACheckpointOfSomethingElseIsRefusedAndKept) {
+    ASSERT_EQ(render({"--spp", "2", "--checkpoint", "state", "-o", "a.png"}).status, 0);
+    const std::string before = bytes("state");
+    const auto refused = [&](std::vector<std::string> changes, const char* word) {
+        changes.insert(changes.end(),
+                       {"--spp", "2", "--resume", "state", "--checkpoint", "state", "-o", "b.png"});
+        const ProgramResult result = render(changes);
+        EXPECT_EQ(result.status, 3) << word;
+        EXPECT_THAT(result.err, HasSubstr(std::string("state: ") + word));
+    };
+    refused({"--seed", "9"}, "seed: is 1, but 9 of this render");
+    refused({"--bounces", "3"}, "bounces: is 16, but 3 of this render");
+    refused({"--preset", "local"}, "reflectance: is global, but local of this render");
+    refused({"--sampler", "independent"}, "sampler: is sobol, but independent of this render");
+    refused({"--sample-range", "1:2"}, "first sample: is 0, but 1 of this render");
+    EXPECT_EQ(bytes("state"), before);
+    EXPECT_FALSE(exists("b.png"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CheckpointCommands, testing::Values("path", "light"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace duolux::test

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "host/render/render.h"
+#include "tests/statistical/films.h"
+#include "tests/support/cornell.h"
+#include "tests/support/device.h"
+#include "tests/support/exact_case.h"
+
+// A render that goes on from any state in which another was kept, and the sum of renders of ranges of
+// samples, have the same bits as one render in one go, whichever the integrator.
+
+namespace duolux::test {
+
+namespace {
+
+class Resume : public testing::TestWithParam<Integrator> {
+  protected:
+    static Scene scene(std::uint32_t spp = 21) {
+        Scene result = mixedCornellBox();
+        result.render.width = 19;
+        result.render.height = 13;
+        result.render.spp = spp;
+        result.render.bounces = 5;
+        result.render.integrator = GetParam();
+        return result;
+    }
+    /// Small dispatches, so that there are many states.
+    static RenderControl inParts() {
+        RenderControl control;
+        control.maxPixelsPerDispatch = 100;
+        control.maxSamplesPerDispatch = 6;
+        return control;
+    }
+};
+
+TEST_P(Resume, FromAnyStateGivesTheSameBits) {
+    const RenderOutput whole = render(device(), scene(), {});
+    std::vector<RenderState> states;
+    RenderControl keeping = inParts();
+    keeping.checkpointSeconds = 0.0;
+    keeping.onCheckpoint = [&](const Film& film, const RenderStatistics& statistics) {
+        states.push_back({film, statistics.lastBounceRadiance, statistics.previousBounceRadiance,
+                          statistics.filmOverflowed});
+    };
+    EXPECT_TRUE(sameBits(render(device(), scene(), keeping).film, whole.film));
+    ASSERT_GT(states.size(), 5u);
+    for (std::size_t i = 0; i < states.size(); i += 1 + states.size() / 12) {
+        RenderControl control = inParts();
+        control.resume = &states[i];
+        const RenderOutput output = render(device(), scene(), control);
+        EXPECT_TRUE(sameBits(output.film, whole.film)) << i;
+        const std::uint64_t before = states[i].film.totalSamples() + states[i].film.lightPaths();
+        EXPECT_EQ(output.statistics.samples, whole.statistics.samples - before);
+        EXPECT_NEAR(output.statistics.lastBounceRadiance, whole.statistics.lastBounceRadiance,
+                    1e-5 * whole.statistics.lastBounceRadiance);
+    }
+}
+
+TEST_P(Resume, WithMoreSamplesGivesTheBitsOfThese) {
+    const RenderOutput some = render(device(), scene(9), {});
+    const RenderState state{some.film, some.statistics.lastBounceRadiance,
+                            some.statistics.previousBounceRadiance, false};
+    RenderControl control;
+    control.resume = &state;
+    EXPECT_TRUE(sameBits(render(device(), scene(), control).film, render(device(), scene(), {}).film));
+    // And with fewer leaves all as it was.
+    const RenderOutput fewer = render(device(), scene(5), control);
+    EXPECT_TRUE(sameBits(fewer.film, some.film));
+    EXPECT_EQ(fewer.statistics.samples, 0u);
+    EXPECT_FALSE(fewer.statistics.stopped);
+}
+
+TEST_P(Resume, StoppedAnywhereLosesNothing) {
+    // What the driver cuts short is being traced again when the render is stopped.
+    Scene panes = stackedPanesCase(100).scene;
+    panes.render.integrator = GetParam();
+    panes.render.width = panes.render.height = 24;
+    panes.render.spp = 9;
+    const Film whole = render(device(), panes, {}).film;
+    for (int after = 1; after < 6; ++after) {
+        int calls = 0;
+        RenderControl control;
+        control.maxPixelsPerDispatch = 300;
+        control.onProgress = [&](const RenderProgress&) { return ++calls < after; };
+        const RenderOutput stopped = render(device(), panes, control);
+        const RenderState state{stopped.film, 0.0, 0.0, false};
+        control.onProgress = nullptr;
+        control.resume = &state;
+        EXPECT_TRUE(sameBits(render(device(), panes, control).film, whole)) << after;
+    }
+}
+
+TEST_P(Resume, RangesAddUp) {
+    const Film whole = render(device(), scene(), {}).film;
+    Film sum(whole.width(), whole.height(), whole.quantum());
+    const std::uint32_t bounds[] = {0, 1, 8, 15, 21};
+    for (int i = 3; i >= 0; --i) {
+        RenderControl control;
+        control.firstSample = bounds[i];
+        const RenderOutput part = render(device(), scene(bounds[i + 1]), control);
+        EXPECT_FALSE(part.statistics.stopped);
+        sum.add(part.film);
+    }
+    EXPECT_TRUE(sameBits(sum, whole));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Resume, testing::Values(Integrator::kPath, Integrator::kLight),
+                         [](const auto& test) { return test.param == Integrator::kPath ? "Path" : "Light"; });
+
+}  // namespace
+
+}  // namespace duolux::test
