@@ -50,7 +50,8 @@ void Film::add(const Film& other) {
         addTo(sums_[i], other.sums_[i], overflowed_);
         samples_[i] += other.samples_[i];
     }
-    addLight(other.lightSums_, other.lightPaths_);
+    addLight(0, other.lightSums_);
+    countLightPaths(other.lightPaths_);
     overflowed_ = overflowed_ || other.overflowed_;
 }
 
@@ -61,12 +62,20 @@ void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> 
     }
 }
 
-void Film::addLight(std::span<const PixelSum> sums, std::uint64_t paths) {
-    lightPaths_ += paths;
+void Film::addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums) {
     if (sums.empty()) return;
     lightSums_.resize(sums_.size(), PixelSum{});
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        addTo(lightSums_[i], sums[i], overflowed_);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        PixelSum sum = sums[i];
+        for (int c = 0; c < 3; ++c) {
+            for (std::int64_t* value : {&sum.invisible[c], &sum.visible[c]}) {
+                if (*value >= 0) continue;
+                *value = std::numeric_limits<std::int64_t>::max();
+                overflowed_ = true;
+            }
+        }
+        addTo(lightSums_[firstPixel + i], sum, overflowed_);
+    }
 }
 
 std::uint64_t Film::totalSamples() const {

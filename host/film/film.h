@@ -38,10 +38,13 @@ class Film {
     /// Overflow saturates, and overflowed() tells.
     void add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples);
 
-    /// Adds what `paths` more light paths brought to the camera: sums for all pixels, row-major, or none if
-    /// all paths were dark. Kept apart from what pixels gather: a pixel's value is the sum over all paths,
-    /// in units of radiance, divided by the number of paths per pixel of the image.
-    void addLight(std::span<const PixelSum> sums, std::uint64_t paths);
+    /// Adds what light paths brought to the pixels from firstPixel on: sums that are >= 0, or < 0 where they
+    /// passed the range of 63 bits. Kept apart from what pixels gather: a pixel's value is the sum over all
+    /// light paths, in units of radiance, divided by the number of paths per pixel of the image.
+    void addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums);
+
+    /// Counts light paths whose light has been added, or that brought none.
+    void countLightPaths(std::uint64_t paths) { lightPaths_ += paths; }
 
     bool overflowed() const { return overflowed_; }
     std::uint64_t totalSamples() const;

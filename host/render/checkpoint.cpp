@@ -14,13 +14,14 @@ namespace duolux {
 
 namespace {
 
-// The file: kMagic, the length of the header as uint32, the header (JSON), samples per pixel (uint32), sums of
-// pixels, sums of light paths if there are any (six int64 a pixel each), and a checksum of all before it (uint64).
-// Little-endian, as all hosts are.
+// The file: kMagic, the length of the header as uint32, the header (JSON), samples per pixel (uint32), sums
+// of pixels, sums of light paths if there are any (six int64 a pixel each), and a checksum of all before it
+// (uint64). Little-endian, as all hosts are.
 constexpr char kMagic[9] = "DUOLUXC1";
 constexpr std::size_t kMagicBytes = 8;
 
-/// FNV-1a over 64-bit words (Fowler, Noll, Vo), the last one filled up with zeros: against damage, not malice.
+/// FNV-1a over 64-bit words (Fowler, Noll, Vo), the last one filled up with zeros: against damage, not
+/// malice.
 std::uint64_t checksum(std::string_view bytes) {
     std::uint64_t hash = 0xcbf29ce484222325ull;
     for (std::size_t i = 0; i < bytes.size(); i += 8) {

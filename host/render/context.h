@@ -37,8 +37,8 @@ struct RenderContext {
     /// Takes note of the time that a dispatch took, which is back; `samples`: paths in it.
     void received(double deviceSeconds, std::uint64_t samples);
 
-    /// Tells the caller, who may stop the render.
-    void reportProgress();
+    /// Tells the caller, who may stop the render. `underWay`: samples that the statistics do not count yet.
+    void reportProgress(std::uint64_t underWay = 0);
 
     /// Has the caller keep what there is, if it is time. Only while no pixel's samples have gaps.
     void offerCheckpoint();

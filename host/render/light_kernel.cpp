@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 
 #include "host/base/error.h"
 #include "host/render/kernel_setup.h"
@@ -16,6 +15,8 @@ namespace {
 
 constexpr std::uint64_t kPixelBytes = sizeof(Film::PixelSum);
 static_assert(kPixelBytes == shared::kFilmSums * 8);
+
+constexpr std::uint32_t kReadPixels = 1u << 20;  // of the film, at a time
 
 std::uint32_t chooseBandPixels(const Device& device, const Scene& scene, std::uint32_t limit) {
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
@@ -70,12 +71,13 @@ LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, c
       maxPaths_(maxPaths),
       pixels_(scene.render.width * scene.render.height),
       bandPixels_(chooseBandPixels(device, scene, limits.filmBandPixels)),
+      readPixels_(std::min(bandPixels_, kReadPixels)),
       teams_(device, maxPaths),
       maxLanes_((maxPaths + teams_.lanes() - 1) / teams_.lanes() * teams_.lanes()),
       params_(uploadParams(device, deviceScene, scene)),
       results_(
           Buffer::readback(device, 2 * sizeof(shared::LaneResult) * std::uint64_t{maxLanes_}, "results")),
-      bandRead_(
+      filmRead_(
           Buffer::readback(device, bandPixels_ * kPixelBytes, "film", vk::BufferUsageFlagBits::eTransferDst)),
       film_(makeFilm(device, pixels_, bandPixels_)),
       kernel_(device, "light",
@@ -90,7 +92,7 @@ LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, c
 
 std::uint64_t LightKernel::deviceBytes() const {
     std::uint64_t bytes =
-        params_.allocated() + results_.allocated() + bandRead_.allocated() + teams_.deviceBytes();
+        params_.allocated() + results_.allocated() + filmRead_.allocated() + teams_.deviceBytes();
     for (const Buffer& band : film_)
         bytes += band.allocated();
     return bytes;
@@ -121,28 +123,29 @@ LightKernel::Results LightKernel::wait(unsigned place) {
     return {range, teamPaths / teams_.lanes(), teams_.complete(place), {results, lanes}, seconds};
 }
 
-std::span<const Film::PixelSum> LightKernel::takeFilm() {
-    sums_.resize(pixels_);
-    std::uint32_t first = 0;
+void LightKernel::takeFilm(Film& film) {
+    std::uint32_t bandBegin = 0;
     for (const Buffer& band : film_) {
-        const std::uint32_t pixels = std::min(bandPixels_, pixels_ - first);
-        const std::uint64_t bytes = pixels * kPixelBytes;
-        runOnce(*device_, "reading the film", [&](const vk::raii::CommandBuffer& commands) {
-            using Stage = vk::PipelineStageFlagBits;
-            using Access = vk::AccessFlagBits;
-            commands.pipelineBarrier(
-                Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
-                vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite,
-                                  Access::eTransferRead | Access::eTransferWrite),
-                {}, {});
-            commands.copyBuffer(band.handle(), bandRead_.handle(), vk::BufferCopy(0, 0, bytes));
-        });
-        bandRead_.invalidate();
-        std::memcpy(sums_.data() + first, bandRead_.mapped(), bytes);
-        first += pixels;
+        const std::uint32_t bandEnd = std::min(bandBegin + bandPixels_, pixels_);
+        for (std::uint32_t first = bandBegin; first < bandEnd; first += readPixels_) {
+            const std::uint32_t count = std::min(readPixels_, bandEnd - first);
+            runOnce(*device_, "reading the film", [&](const vk::raii::CommandBuffer& commands) {
+                using Stage = vk::PipelineStageFlagBits;
+                using Access = vk::AccessFlagBits;
+                commands.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
+                                         vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferWrite,
+                                                           Access::eTransferRead | Access::eTransferWrite),
+                                         {}, {});
+                commands.copyBuffer(
+                    band.handle(), filmRead_.handle(),
+                    vk::BufferCopy((first - bandBegin) * kPixelBytes, 0, count * kPixelBytes));
+            });
+            filmRead_.invalidate();
+            film.addLight(first, {reinterpret_cast<const Film::PixelSum*>(filmRead_.mapped()), count});
+        }
+        bandBegin = bandEnd;
     }
     clearFilm();
-    return sums_;
 }
 
 void LightKernel::clearFilm() {

@@ -55,9 +55,9 @@ class LightKernel {
     /// Waits for the dispatch in a place. What is returned is valid until the next submit to it.
     Results wait(unsigned place);
 
-    /// Takes the film's sums, in quanta, from the device, which begins again at zero. Nothing may be in
-    /// flight.
-    std::span<const Film::PixelSum> takeFilm();
+    /// Adds the sums on the device to a film of the scene's size and quantum, and begins again at zero.
+    /// Nothing may be in flight.
+    void takeFilm(Film& film);
 
     /// Begins again at zero, whatever has been added.
     void clearFilm();
@@ -69,15 +69,14 @@ class LightKernel {
     };
 
     const Device* device_;
-    std::uint32_t lanePaths_, maxPaths_, pixels_, bandPixels_;
+    std::uint32_t lanePaths_, maxPaths_, pixels_, bandPixels_, readPixels_;
     Teams teams_;
     std::uint32_t maxLanes_;
-    Buffer params_, results_, bandRead_;
+    Buffer params_, results_, filmRead_;
     std::vector<Buffer> film_;
     Kernel kernel_;
     std::array<CommandSlot, 2> commands_;
     std::array<Submitted, 2> submitted_{};
-    std::vector<Film::PixelSum> sums_;
 };
 
 }  // namespace duolux

@@ -46,10 +46,10 @@ void RenderContext::received(double deviceSeconds, std::uint64_t samples) {
     secondsPerSample = secondsPerSample > 0.0 ? 0.5 * (secondsPerSample + each) : each;
 }
 
-void RenderContext::reportProgress() {
+void RenderContext::reportProgress(std::uint64_t underWay) {
     statistics.renderSeconds = seconds();
     if (!control.onProgress) return;
-    const RenderProgress progress{statistics.samples, samplesTotal(), statistics.renderSeconds};
+    const RenderProgress progress{statistics.samples + underWay, samplesTotal(), statistics.renderSeconds};
     const bool finished = progress.samplesDone == progress.samplesTotal;
     if (!control.onProgress(progress) && !finished) statistics.stopped = true;
 }

@@ -49,7 +49,7 @@ class Shooter {
         context_.begin();
         // Where nothing emits every path is a dark one.
         if (context_.deviceScene.lightCount == 0) {
-            context_.film.addLight({}, context_.samplesTotal());
+            context_.film.countLightPaths(context_.samplesTotal());
             statistics.samples = context_.samplesTotal();
         }
         std::uint32_t dispatches = 1;
@@ -96,13 +96,14 @@ class Shooter {
         for (;;) {
             // Keep two dispatches in flight, so that the device never waits.
             while (submitted - received < 2 && submitted < dispatches && next < end && batch.complete &&
-                   !(submitted > 0 && finishEarly())) {
+                   !(submitted > 0 && (context_.statistics.stopped || finishEarly()))) {
                 const PathRange range{next, dispatchPaths(kernel, end - next)};
                 kernel.submit(submitted++ % 2, range);
                 next += range.count;
             }
             if (submitted == received) return batch;
             receive(kernel, received++ % 2, batch);
+            if (batch.complete) context_.reportProgress(batch.paths);
         }
     }
 
@@ -130,7 +131,8 @@ class Shooter {
 
     void takeOver(LightKernel& kernel, const Batch& batch) {
         RenderStatistics& statistics = context_.statistics;
-        context_.film.addLight(kernel.takeFilm(), batch.paths);
+        kernel.takeFilm(context_.film);
+        context_.film.countLightPaths(batch.paths);
         statistics.samples += batch.paths;
         statistics.nonFiniteSamples += batch.nonFinite;
         statistics.lightRays += batch.lightRays;

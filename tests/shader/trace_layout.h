@@ -18,7 +18,7 @@ struct TestRay {
 };
 
 struct TestHit {
-    float t;         // -1: none
+    float t;  // -1: none
     uint primitive;
     uint crossings;  // with kTestAllCrossings: how many surfaces the ray crosses; else 0 or 1
     vec2 barycentric;

@@ -82,9 +82,4 @@ INSTANTIATE_TEST_SUITE_P(All, Exact, testing::ValuesIn(exactCases()),
 
 }  // namespace
 
-/// For messages of the test framework.
-void PrintTo(const ExactCase& exact, std::ostream* out) {
-    *out << exact.name;
-}
-
 }  // namespace duolux::test

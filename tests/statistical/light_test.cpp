@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "host/scene/two_spheres.h"
 #include "tests/statistical/renders.h"
 #include "tests/support/cornell.h"
+#include "tests/support/device.h"
 #include "tests/support/exact_case.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/temporary_folder.h"
@@ -123,6 +125,62 @@ TEST_P(Pair, GatheringAndShootingAgree) {
 
 INSTANTIATE_TEST_SUITE_P(All, Pair, testing::ValuesIn(pairCases()),
                          [](const auto& test) { return test.param.name; });
+
+/// A camera so near to a lit floor that single contributions are beyond what the film holds.
+TEST(LightPaths, BrighterThanTheFilmIsClampedAndTold) {
+    SceneBuilder builder;
+    Material floor, lamp;
+    floor.name = "floor";
+    lamp.name = "lamp";
+    lamp.emission.invisible = glm::vec3(1.0f);
+    const float a = 2e-3f, b = 1e-3f, h = 5e-4f;
+    builder.quad({-a, 0, a}, {a, 0, a}, {a, 0, -a}, {-a, 0, -a}, builder.add(floor));
+    builder.quad({-b, h, -b}, {b, h, -b}, {b, h, b}, {-b, h, b}, builder.add(lamp));
+    builder.quad({1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}, 0);  // makes the scene a large one
+    Scene& scene = builder.scene;
+    scene.reflectance = preset("local");
+    scene.camera = {{0, 3e-7f, 0}, {0, 0, 0}, {0, 0, 1}, 150.0f};
+    scene.render.width = scene.render.height = 2;
+    scene.render.bounces = 1;
+    scene.render.integrator = Integrator::kLight;
+    scene.render.spp = 1u << 21;
+    const RenderOutput output = render(device(), scene);
+    EXPECT_TRUE(output.statistics.filmOverflowed);
+    for (const Film::PixelSum& sum : output.film.lightSums()) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_GE(sum.visible[c], 0);
+    }
+    // A floor at a distance is within the range.
+    scene.camera.position.y = 1e-4f;
+    scene.render.spp = 1u << 16;
+    EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);
+}
+
+/// Light that grows 28 times with each bounce: no contribution is too bright for the film, but their sums
+/// are.
+TEST(LightPaths, SumsBeyondTheFilmAreSaturatedAndTold) {
+    const std::vector<ExactCase> cases = enclosureCases();
+    const auto growing = std::ranges::find(cases, "EnclosureGrowing", &ExactCase::name);
+    ASSERT_NE(growing, cases.end());
+    Scene scene = growing->scene;
+    scene.reflectance = {matrix(35.0f, 0.0f, 35.0f, 0.0f), {}};
+    scene.render.bounces = 4;
+    scene.render.width = scene.render.height = 4;
+    scene.render.integrator = Integrator::kLight;
+    for (const bool noInt64Atomics : {false, true}) {
+        RenderControl control;
+        control.noInt64Atomics = noInt64Atomics;
+        scene.render.spp = 1u << 15;
+        const RenderOutput output = render(device(), scene, control);
+        EXPECT_TRUE(output.statistics.filmOverflowed);
+        for (const Film::PixelSum& sum : output.film.lightSums()) {
+            for (int c = 0; c < 3; ++c)
+                EXPECT_GE(std::min(sum.visible[c], sum.invisible[c]), 0);
+        }
+        scene.render.spp = 16;
+        EXPECT_FALSE(render(device(), scene, control).statistics.filmOverflowed);
+    }
+}
 
 }  // namespace
 

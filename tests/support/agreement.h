@@ -31,8 +31,8 @@ struct Agreement {
 /// Judges independent renders (one a seed, at least 2) of a scene whose expectation is known, exactly or with
 /// variances. Welch's t per component and channel on blocks of 4 and 8 pixels a side and on the whole image,
 /// and with 10 renders or more on every pixel: noise averages out as the blocks grow, a bias does not. Each
-/// scale gets a quarter of alpha, divided by Sidak's rule among its tests. With 10 renders or more the mean square of t over all pixels is
-/// tested too.
+/// scale gets a quarter of alpha, divided by Sidak's rule among its tests. With 10 renders or more the mean
+/// square of t over all pixels is tested too.
 Agreement judge(std::span<const RadianceImage> renders, const reference::Estimates& expected,
                 const Criterion& criterion = {});
 

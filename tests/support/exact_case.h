@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct ExactCase {
     double relative = 1e-5;  ///< error of the closed form and of single precision
     bool onePoint = false;   ///< every pixel sees the same point, which no light path meets
 };
+
+/// For messages of the test framework.
+inline void PrintTo(const ExactCase& exact, std::ostream* out) {
+    *out << exact.name;
+}
 
 /// Closed sphere seen from inside, uniform emission: L = sum over k of (albedo O)^k E.
 std::vector<ExactCase> enclosureCases();

@@ -47,8 +47,9 @@ TEST(Film, ResolvesToTheMeanOfEachPixel) {
 TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
     Film film(2, 1, 0.5f);
     const Film::PixelSum light[] = {{{8, 0, 4}, {16, 2, 0}}, {{0, 0, 0}, {6, 0, 0}}};
-    film.addLight(light, 3);
-    film.addLight({}, 5);  // dark ones
+    film.addLight(0, std::span(light).first(1));
+    film.addLight(1, std::span(light).last(1));
+    film.countLightPaths(8);
     EXPECT_EQ(film.lightPaths(), 8u);
     EXPECT_EQ(film.totalSamples(), 0u);
     // 8 paths are 4 for each of the two pixels.
@@ -72,9 +73,17 @@ TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
 
     const Film::PixelSum most[] = {{{kMax, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
     EXPECT_FALSE(film.overflowed());
-    film.addLight(most, 1);
+    film.addLight(0, most);
     EXPECT_TRUE(film.overflowed());
     EXPECT_EQ(film.lightSums()[0].invisible[0], kMax);
+
+    // Sums that passed the sign on the device.
+    Film passed(2, 1, 0.5f);
+    const Film::PixelSum beyond[] = {{{0, 0, 0}, {0, kMin, 0}}, {{0, 0, 0}, {0, 1, 0}}};
+    passed.addLight(0, beyond);
+    EXPECT_TRUE(passed.overflowed());
+    EXPECT_EQ(passed.lightSums()[0].visible[1], kMax);
+    EXPECT_EQ(passed.lightSums()[1].visible[1], 1);
 }
 
 TEST(Film, SaturatesOnOverflowAndTells) {
