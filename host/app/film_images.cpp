@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
-
 #include "host/base/error.h"
 #include "host/base/version.h"
 
@@ -16,7 +14,7 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
     out.display = origin.display;
     out.exposure = exposure;
     out.metadata = {{"reflectance", origin.reflectance},
-                    {"integrator", origin.settings.integrator == Integrator::kLight ? "light" : "path"},
+                    {"integrator", nameOf(origin.settings.integrator)},
                     {"spp", fmt::format("{:g}", samples / pixels)},
                     {"seed", fmt::format("{}", origin.settings.seed)},
                     {"bounces", fmt::format("{}", origin.settings.bounces)},
@@ -25,17 +23,22 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
     return out;
 }
 
-void writeImages(const std::vector<std::string>& files, const RadianceImage& image,
-                 const ImageOptions& options) {
-    std::exception_ptr failure;
-    for (const std::string& file : files) {
-        try {
-            writeImage(file, image, options);
-        } catch (const Error&) {
-            if (!failure) failure = std::current_exception();
-        }
+void WriteAll::operator()(const std::function<void()>& step) {
+    try {
+        step();
+    } catch (const Error&) {
+        if (!failure_) failure_ = std::current_exception();
     }
-    if (failure) std::rethrow_exception(failure);
+}
+
+void WriteAll::rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+}
+
+void writeImages(WriteAll& write, const std::vector<std::string>& files, const RadianceImage& image,
+                 const ImageOptions& options) {
+    for (const std::string& file : files)
+        write([&] { writeImage(file, image, options); });
 }
 
 }  // namespace duolux

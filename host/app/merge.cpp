@@ -38,6 +38,16 @@ void requireDisjoint(const Part& part, const std::vector<Part>& others) {
     }
 }
 
+void warnIfIncomplete(const std::string& file, const Checkpoint& part) {
+    const Film& film = part.state.film;
+    const std::uint64_t taken = film.totalSamples() + film.lightPaths();
+    const std::uint64_t wanted =
+        (part.origin.settings.spp - part.origin.firstSample) * (std::uint64_t{film.width()} * film.height());
+    if (taken == wanted) return;
+    warn(fmt::format("{} has {} of {} {}; --resume takes the rest", file, taken, wanted,
+                     part.origin.settings.integrator == Integrator::kLight ? "light paths" : "samples"));
+}
+
 void runMerge(const MergeOptions& options) {
     std::vector<OutputFile> files;
     for (const std::string& output : options.outputs)
@@ -49,6 +59,7 @@ void runMerge(const MergeOptions& options) {
         Checkpoint part = readCheckpoint(file);
         if (sum) requireSameOrigin(file, part.origin, sum->origin, options.parts.front());
         requireDisjoint({part.origin.firstSample, part.origin.settings.spp, file}, parts);
+        warnIfIncomplete(file, part);
         parts.push_back({part.origin.firstSample, part.origin.settings.spp, file});
         if (sum) {
             sum->state.film.add(part.state.film);
@@ -58,11 +69,12 @@ void runMerge(const MergeOptions& options) {
         }
     }
     if (sum->state.filmOverflowed || sum->state.film.overflowed()) {
-        fmt::print(stderr,
-                   "duolux: warning: some pixels are brighter than the film can hold and were clamped\n");
+        warn(kFilmOverflowed);
     }
-    writeImages(options.outputs, sum->state.film.resolve(),
+    WriteAll write;
+    writeImages(write, options.outputs, sum->state.film.resolve(),
                 filmImageOptions(sum->origin, sum->state.film, options.exposure));
+    write.rethrow();
 }
 
 }  // namespace

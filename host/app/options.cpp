@@ -84,6 +84,14 @@ CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper) {
         range);
 }
 
+CLI::Validator notEmpty() {
+    return CLI::Validator(
+        [](std::string& text) {
+            return text.empty() ? std::string("expected a value, not nothing") : std::string();
+        },
+        "");
+}
+
 void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs) {
     const auto canonical = [](const std::string& file) {
         std::error_code ignored;
@@ -114,11 +122,15 @@ void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std:
     }
 }
 
+void warn(const std::string& text) {
+    fmt::print(stderr, "duolux: warning: {}\n", text);
+}
+
 void writeReport(const std::string& file, const std::string& text) {
     if (file == "-") {
         fmt::print("{}", text);
     } else {
-        writeTextFile(file, text);
+        writeFile(file, text);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -90,10 +91,6 @@ Overrides parseOverrides(const RenderOptions& options) {
     return overrides;
 }
 
-void warn(const std::string& text) {
-    fmt::print(stderr, "duolux: warning: {}\n", text);
-}
-
 std::string percent(double part, double whole) {
     const double value = 100.0 * part / whole;
     return value < 10.0 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
@@ -131,11 +128,7 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl&
     if (statistics.nonFiniteSamples > 0)
         warnings.push_back(
             fmt::format("{} samples were not finite and were dropped", statistics.nonFiniteSamples));
-    if (statistics.filmOverflowed) {
-        warnings.emplace_back(
-            "some pixels are brighter than the film can hold and were clamped; does the light grow with "
-            "every bounce?");
-    }
+    if (statistics.filmOverflowed) warnings.emplace_back(kFilmOverflowed);
     return warnings;
 }
 
@@ -162,9 +155,18 @@ void chooseRange(const RenderOptions& options, const Overrides& overrides,
         }
         control.firstSample = first;
         scene.render.spp = end;
-    } else if (resumed && resumed->origin.firstSample > 0) {
+    } else if (resumed) {
         control.firstSample = resumed->origin.firstSample;
-        scene.render.spp = resumed->origin.settings.spp;
+        if (!options.spp) scene.render.spp = resumed->origin.settings.spp;
+        if (scene.render.spp <= control.firstSample) {
+            throw UsageError(fmt::format("--spp {}: {} is a part that begins with sample {}; expected more",
+                                         scene.render.spp, options.resume, control.firstSample));
+        }
+    }
+    // What has been taken stays.
+    if (resumed) {
+        scene.render.spp =
+            std::max(scene.render.spp, resumed->origin.firstSample + samplesTaken(resumed->state.film));
     }
 }
 
@@ -226,7 +228,12 @@ void runRender(const RenderOptions& options) {
     };
     if (!options.checkpoint.empty()) {
         control.onCheckpoint = [&](const Film& film, const RenderStatistics& statistics) {
-            writeCheckpoint(options.checkpoint, origin(statistics), film, statistics);
+            try {
+                writeCheckpoint(options.checkpoint, origin(statistics), film, statistics);
+            } catch (const Error& e) {  // the next one may fit again
+                progress.leaveLine();
+                warn(e.what());
+            }
         };
     }
     const RenderOutput output = render(device, scene, control);
@@ -237,7 +244,6 @@ void runRender(const RenderOptions& options) {
         scene.warnings.push_back(warning);
     }
     const Clock::time_point writeStart = Clock::now();
-    if (control.onCheckpoint) control.onCheckpoint(output.film, output.statistics);
     const auto finish = [&] {
         seconds.write = secondsSince(writeStart);
         seconds.total = secondsSince(start);
@@ -245,14 +251,17 @@ void runRender(const RenderOptions& options) {
         writeReport(options.report,
                     renderReport(scene, control.firstSample, device.info(), output.statistics, seconds));
     };
-    try {
-        writeImages(outputs, output.film.resolve(),
-                    filmImageOptions(origin(output.statistics), output.film, options.exposure));
-    } catch (const Error&) {
-        finish();
-        throw;
+    // All that can be written is; then the first failure is told.
+    WriteAll write;
+    if (!options.checkpoint.empty()) {
+        write([&] {
+            writeCheckpoint(options.checkpoint, origin(output.statistics), output.film, output.statistics);
+        });
     }
-    finish();
+    writeImages(write, outputs, output.film.resolve(),
+                filmImageOptions(origin(output.statistics), output.film, options.exposure));
+    write(finish);
+    write.rethrow();
 
     if (output.statistics.stopped && interrupted()) {
         throw Error(ExitStatus::kInterrupted,
@@ -330,22 +339,27 @@ void addRenderCommand(CLI::App& app) {
     command
         ->add_option("--time-limit", options->timeLimit,
                      "Stop before this many seconds of rendering with what has been accumulated, but not "
-                     "before every pixel has one sample")
+                     "before every pixel has one sample (or there are as many light paths as pixels)")
         ->type_name("SECONDS")
         ->check(between(1e-3, 1e9));
     command
         ->add_option("--sample-range", options->sampleRange,
                      "Only samples A to B-1 of every pixel (or as many light paths), a part for 'duolux "
                      "merge', with --checkpoint")
-        ->type_name("A:B");
+        ->type_name("A:B")
+        ->check(notEmpty());
     command
         ->add_option("--checkpoint", options->checkpoint,
                      "Keep what there is, exactly, in this file: every minute, and at the end")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(notEmpty());
     command
-        ->add_option("--resume", options->resume,
-                     "Go on from a checkpoint of the same scene and settings; --spp may be larger")
-        ->type_name("FILE");
+        ->add_option(
+            "--resume", options->resume,
+            "Go on from a checkpoint of the same scene and settings, to the end of its range of samples "
+            "or to --spp")
+        ->type_name("FILE")
+        ->check(notEmpty());
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")
         ->type_name("STOPS")
         ->check(between(-64.0, 64.0));

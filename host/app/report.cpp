@@ -16,10 +16,6 @@ std::uint64_t peakHostBytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
 }
 
-const char* integratorName(Integrator integrator) {
-    return integrator == Integrator::kLight ? "light" : "path";
-}
-
 double perSecond(std::uint64_t count, double seconds) {
     return seconds > 0.0 ? static_cast<double>(count) / seconds * 1e-6 : 0.0;
 }
@@ -47,8 +43,8 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                           {"bounces", scene.render.bounces},
                           {"effective_bounces", statistics.effectiveBounces},
                           {"seed", scene.render.seed},
-                          {"sampler", scene.render.sampler == Sampler::kSobol ? "sobol" : "independent"},
-                          {"integrator", integratorName(scene.render.integrator)},
+                          {"sampler", nameOf(scene.render.sampler)},
+                          {"integrator", nameOf(scene.render.integrator)},
                           {"direct_light", directLight},
                           {"reflectance", describeReflectance(scene.reflectance)}};
     report["device"] = {{"name", device.name},
@@ -62,7 +58,7 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                          {"render", statistics.renderSeconds},
                          {"write", seconds.write},
                          {"total", seconds.total}};
-    report["device_seconds"] = {{integratorName(scene.render.integrator), statistics.deviceSeconds}};
+    report["device_seconds"] = {{nameOf(scene.render.integrator), statistics.deviceSeconds}};
     report["dispatches"] = {{"count", statistics.dispatches},
                             {"longest_seconds", statistics.longestDispatchSeconds},
                             {"cut_short", statistics.dispatchesCutShort}};
@@ -81,7 +77,7 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                           {"cut_off_by_bounces", statistics.cutOffByBounces()}};
     report["peak_bytes"] = {{"host", peakHostBytes()}, {"device", statistics.deviceBytes}};
     report["warnings"] = scene.warnings;
-    return report.dump(2) + "\n";
+    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace duolux

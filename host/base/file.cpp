@@ -1,5 +1,6 @@
 #include "host/base/file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -33,6 +34,18 @@ std::string readFile(const std::filesystem::path& path) {
     return bytes;
 }
 
+namespace {
+
+/// Waits until the file is on the disk, as far as the system can tell.
+void synchronise(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return;  // `write` has made none: the rename will say so
+    ::fsync(file);
+    ::close(file);
+}
+
+}  // namespace
+
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write) {
     // The extension is kept: some writers choose the format by it.
@@ -42,6 +55,7 @@ void writeFileAtomically(const std::filesystem::path& path,
     std::error_code ec;
     try {
         write(temporary);
+        synchronise(temporary);
         std::filesystem::rename(temporary, path);
     } catch (const Error&) {
         std::filesystem::remove(temporary, ec);
@@ -55,10 +69,10 @@ void writeFileAtomically(const std::filesystem::path& path,
     }
 }
 
-void writeTextFile(const std::filesystem::path& path, std::string_view text) {
+void writeFile(const std::filesystem::path& path, std::string_view bytes) {
     writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
         std::ofstream out(temporary, std::ios::binary);
-        out << text;
+        out << bytes;
         out.close();
         if (!out) throw MachineError(path.string() + ": cannot write");
     });

@@ -68,7 +68,7 @@ class Laboratory {
     void writeVariant(const std::string& name, const nlohmann::json& materials) {
         nlohmann::json scene = nlohmann::json::parse(readFile(file("scene/two_spheres.json")));
         scene["materials"].update(materials);
-        writeTextFile(file("scene/" + name), scene.dump(2) + "\n");
+        writeFile(file("scene/" + name), scene.dump(2) + "\n");
     }
 
     void makeScenes() {

@@ -63,9 +63,9 @@ int parseAndRun(int argc, char** argv) {
         setup.repetitions = 1;
     }
     const Experiment experiment = runExperiment(setup);
-    writeTextFile(setup.folder / "tables.md", markdownTables(setup, experiment));
-    writeTextFile(setup.folder / "results.json", jsonReport(setup, experiment));
-    writeTextFile(setup.folder / "index.html", htmlReport(setup, experiment));
+    writeFile(setup.folder / "tables.md", markdownTables(setup, experiment));
+    writeFile(setup.folder / "results.json", jsonReport(setup, experiment));
+    writeFile(setup.folder / "index.html", htmlReport(setup, experiment));
     fmt::print("{}", markdownTables(setup, experiment));
     fmt::print("The report: {}\n", (setup.folder / "index.html").string());
     return 0;

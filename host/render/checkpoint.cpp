@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.h"
@@ -47,15 +47,7 @@ std::vector<T> take(std::string_view& bytes, std::size_t count) {
     return items;
 }
 
-const char* name(Integrator integrator) {
-    return integrator == Integrator::kLight ? "light" : "path";
-}
-
-const char* name(Sampler sampler) {
-    return sampler == Sampler::kIndependent ? "independent" : "sobol";
-}
-
-const char* name(DirectLight directLight) {
+const char* nameOf(DirectLight directLight) {
     return directLight == DirectLight::kClosedForm ? "closed-form" : "sampled";
 }
 
@@ -71,9 +63,9 @@ std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderSta
                           {"height", settings.height},
                           {"bounces", settings.bounces},
                           {"seed", settings.seed},
-                          {"sampler", name(settings.sampler)},
-                          {"integrator", name(settings.integrator)},
-                          {"direct_light", name(origin.directLight)},
+                          {"sampler", nameOf(settings.sampler)},
+                          {"integrator", nameOf(settings.integrator)},
+                          {"direct_light", nameOf(origin.directLight)},
                           {"first_sample", origin.firstSample},
                           {"end_sample", settings.spp}};
     header["film"] = {{"quantum", film.quantum()},
@@ -82,7 +74,8 @@ std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderSta
                       {"overflowed", statistics.filmOverflowed || film.overflowed()},
                       {"last_bounce", statistics.lastBounceRadiance},
                       {"previous_bounce", statistics.previousBounceRadiance}};
-    return header.dump();
+    // A path may be no UTF-8.
+    return header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 FilmOrigin originFrom(const nlohmann::json& header) {
@@ -100,10 +93,10 @@ FilmOrigin originFrom(const nlohmann::json& header) {
     settings.at("end_sample").get_to(origin.settings.spp);
     settings.at("first_sample").get_to(origin.firstSample);
     origin.settings.sampler =
-        settings.at("sampler") == name(Sampler::kIndependent) ? Sampler::kIndependent : Sampler::kSobol;
+        settings.at("sampler") == nameOf(Sampler::kIndependent) ? Sampler::kIndependent : Sampler::kSobol;
     origin.settings.integrator =
-        settings.at("integrator") == name(Integrator::kLight) ? Integrator::kLight : Integrator::kPath;
-    origin.directLight = settings.at("direct_light") == name(DirectLight::kClosedForm)
+        settings.at("integrator") == nameOf(Integrator::kLight) ? Integrator::kLight : Integrator::kPath;
+    origin.directLight = settings.at("direct_light") == nameOf(DirectLight::kClosedForm)
                              ? DirectLight::kClosedForm
                              : DirectLight::kSampled;
     return origin;
@@ -157,7 +150,7 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
     append(bytes, film.lightSums());
     const std::uint64_t sum = checksum(bytes);
     append(bytes, std::span(&sum, 1));
-    writeTextFile(path, bytes);
+    writeFile(path, bytes);
 }
 
 Checkpoint readCheckpoint(const std::filesystem::path& path) {
@@ -182,6 +175,12 @@ Checkpoint readCheckpoint(const std::filesystem::path& path) {
     }
 }
 
+std::uint32_t samplesTaken(const Film& film) {
+    const std::uint64_t pixels = std::uint64_t{film.width()} * film.height();
+    const std::uint64_t light = (film.lightPaths() + pixels - 1) / pixels;
+    return std::max(static_cast<std::uint32_t>(light), std::ranges::max(film.samples()));
+}
+
 void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& origin, const FilmOrigin& wanted,
                        const std::string& wantedFrom) {
     const auto require = [&](const char* what, const auto& here, const auto& there) {
@@ -193,11 +192,11 @@ void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& orig
     require("size", fmt::format("{}x{}", a.width, a.height), fmt::format("{}x{}", b.width, b.height));
     require("reflectance", origin.reflectance, wanted.reflectance);
     require("scene hash", origin.sceneHash, wanted.sceneHash);
-    require("integrator", std::string(name(a.integrator)), std::string(name(b.integrator)));
+    require("integrator", std::string(nameOf(a.integrator)), std::string(nameOf(b.integrator)));
     require("bounces", a.bounces, b.bounces);
     require("seed", a.seed, b.seed);
-    require("sampler", std::string(name(a.sampler)), std::string(name(b.sampler)));
-    require("direct light", std::string(name(origin.directLight)), std::string(name(wanted.directLight)));
+    require("sampler", std::string(nameOf(a.sampler)), std::string(nameOf(b.sampler)));
+    require("direct light", std::string(nameOf(origin.directLight)), std::string(nameOf(wanted.directLight)));
 }
 
 }  // namespace duolux

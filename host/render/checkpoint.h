@@ -34,6 +34,9 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
 /// Throws InputError if the file cannot be read, is no checkpoint, is of another version or damaged.
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 
+/// Samples of a pixel, or light paths per pixel, that a film holds, the most of any pixel.
+std::uint32_t samplesTaken(const Film& film);
+
 /// Throws InputError naming `file` if what was rendered there is not the same as `wanted`, but for the range
 /// of samples, which `wantedFrom` ("this render", another checkpoint) has.
 void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& origin, const FilmOrigin& wanted,

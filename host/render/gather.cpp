@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "host/base/error.h"
 #include "host/render/context.h"
@@ -77,7 +76,7 @@ class Gatherer {
                 kernel.submit(submitted++ % 2, *range);
             }
             if (submitted == received) break;
-            if (const auto range = receive(kernel, received++ % 2)) schedule.retry(*range);
+            receive(kernel, received++ % 2, schedule);
             context_.reportProgress();
             if (schedule.settled()) context_.offerCheckpoint();
         }
@@ -93,21 +92,22 @@ class Gatherer {
         return samples;
     }
 
-    /// Waits for a dispatch and adds up what it has traced; or returns what the driver has cut short, to be
-    /// traced again with a smaller share for each team.
-    std::optional<WorkRange> receive(PathKernel& kernel, unsigned place) {
+    /// Waits for a dispatch and adds up what it has traced; what the driver has cut short is to be traced
+    /// again, with a smaller share for each team.
+    void receive(PathKernel& kernel, unsigned place, Schedule& schedule) {
         const PathKernel::Results results = kernel.wait(place);
         context_.received(results.deviceSeconds, results.range.size());
         if (results.complete) {
             add(results);
-            return std::nullopt;
+            schedule.traced(results.range);
+            return;
         }
         // Some drivers end all loops of an invocation after a fixed number of iterations, without a word.
-        // What this happened to is thrown away and traced again.
+        // What this happened to is thrown away.
         if (results.laneSamples == 1) context_.failCutShort();
         kernel.limitLaneSamples(results.laneSamples / 2);
         ++context_.statistics.dispatchesCutShort;
-        return results.range;
+        schedule.retry(results.range);
     }
 
     void add(const PathKernel::Results& results) {

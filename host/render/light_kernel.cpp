@@ -20,15 +20,18 @@ constexpr std::uint32_t kReadPixels = 1u << 20;  // of the film, at a time
 
 std::uint32_t chooseBandPixels(const Device& device, const Scene& scene, std::uint32_t limit) {
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
+    // The results and the teams' progress are storage buffers, too.
+    const std::uint32_t bindable =
+        device.physical().getProperties().limits.maxPerStageDescriptorStorageBuffers;
+    const std::uint64_t bands = std::min(shared::kMaxFilmBands, bindable - std::min(bindable, 2u));
     std::uint64_t most = device.info().maxStorageBufferRange / kPixelBytes;
     if (limit > 0) most = std::min<std::uint64_t>(most, limit);
-    if (pixels > most * shared::kMaxFilmBands) {
-        throw MachineError(
-            fmt::format("{} ({}): a film of {}x{} pixels for light paths is too large; {} pixels can be "
-                        "bound, or as many "
-                        "as there are with --integrator path",
-                        device.info().name, device.info().driver, scene.render.width, scene.render.height,
-                        most * shared::kMaxFilmBands));
+    if (pixels > most * bands) {
+        throw MachineError(fmt::format(
+            "{} ({}): a film of {}x{} pixels for light paths is too large; {} pixels can be "
+            "bound, or as many "
+            "as there are with --integrator path",
+            device.info().name, device.info().driver, scene.render.width, scene.render.height, most * bands));
     }
     return static_cast<std::uint32_t>(std::min(pixels, most));
 }
@@ -47,9 +50,8 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
                                    const std::vector<Buffer>& film) {
     bindings.push_back({shared::kBindingResults, &results});
     bindings.push_back({shared::kBindingTeams, &teams.progress()});
-    // All elements of an array are bound, used or not.
-    for (std::size_t i = 0; i < shared::kMaxFilmBands; ++i)
-        bindings.push_back({shared::kBindingFilm, &film[std::min(i, film.size() - 1)]});
+    for (const Buffer& band : film)
+        bindings.push_back({shared::kBindingFilm, &band});
     return bindings;
 }
 
@@ -78,7 +80,7 @@ LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, c
       results_(
           Buffer::readback(device, 2 * sizeof(shared::LaneResult) * std::uint64_t{maxLanes_}, "results")),
       filmRead_(
-          Buffer::readback(device, bandPixels_ * kPixelBytes, "film", vk::BufferUsageFlagBits::eTransferDst)),
+          Buffer::readback(device, readPixels_ * kPixelBytes, "film", vk::BufferUsageFlagBits::eTransferDst)),
       film_(makeFilm(device, pixels_, bandPixels_)),
       kernel_(device, "light",
               device.info().int64Atomics && !limits.noInt64Atomics ? spirv::kLightKernelInt64

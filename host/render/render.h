@@ -12,8 +12,8 @@
 
 namespace duolux {
 
-/// Where a render stands; passed to RenderControl::onProgress after every dispatch, or every few of light
-/// paths. Samples are light paths if the scene's integrator shoots.
+/// Where a render stands; passed to RenderControl::onProgress after every dispatch. Samples are light paths
+/// if the scene's integrator shoots.
 struct RenderProgress {
     /// Over all pixels, without what was resumed.
     std::uint64_t samplesDone = 0, samplesTotal = 0;
@@ -46,7 +46,7 @@ struct RenderControl {
     std::function<void(const Film&, const RenderStatistics&)> onCheckpoint;
     double checkpointSeconds = 60.0;
     DirectLight directLight = DirectLight::kAuto;
-    /// Called after every dispatch from the rendering thread; returning false stops the render cleanly.
+    /// Called now and then from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
     /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the
     /// same, or there are as many light paths as pixels.

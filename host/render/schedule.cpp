@@ -25,8 +25,15 @@ Schedule::Schedule(std::uint32_t slots, std::uint32_t firstSample, std::uint32_t
       passEnd_(firstSample + 1),
       nextSample_(firstSample) {}
 
+void Schedule::retry(WorkRange range) {
+    if (!range.again) unsettled_ += range.size();
+    range.again = true;
+    retries_.push_back(range);
+}
+
 void Schedule::resume(std::span<const std::uint32_t> taken) {
-    const std::uint32_t most = *std::max_element(taken.begin(), taken.end());
+    const std::uint32_t wanted = endSample_ - firstSample_;
+    const std::uint32_t most = std::min(*std::max_element(taken.begin(), taken.end()), wanted);
     if (most == 0) return;
     for (std::uint32_t begin = 0; begin < slots_;) {
         std::uint32_t end = begin + 1;
@@ -38,7 +45,7 @@ void Schedule::resume(std::span<const std::uint32_t> taken) {
     }
     std::reverse(behind_.begin(), behind_.end());  // taken from the back
     passBegin_ = nextSample_ = firstSample_ + most;
-    passEnd_ = passBegin_ + std::min(maxSamples_, endSample_ - std::min(passBegin_, endSample_));
+    passEnd_ = passBegin_ + std::min(maxSamples_, endSample_ - passBegin_);
 }
 
 void Schedule::chooseRun(double secondsPerSample) {

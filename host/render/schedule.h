@@ -11,6 +11,7 @@ namespace duolux {
 struct WorkRange {
     std::uint32_t firstSlot = 0, slots = 0;
     std::uint32_t firstSample = 0, samples = 0;
+    bool again = false;  ///< was handed out before, or a larger range was that it is a part of
 
     std::uint64_t size() const { return std::uint64_t{slots} * samples; }
 };
@@ -45,10 +46,13 @@ class Schedule {
     std::optional<WorkRange> next(double secondsPerSample, std::uint32_t laneSamples, Wanted wanted);
 
     /// Takes back a range that was handed out and has to be traced again.
-    void retry(const WorkRange& range) { retries_.push_back(range); }
+    void retry(WorkRange range);
 
-    /// Nothing waits to be traced again.
-    bool settled() const { return retries_.empty(); }
+    /// A range that was handed out has been traced.
+    void traced(const WorkRange& range) { unsettled_ -= range.again ? range.size() : 0; }
+
+    /// Nothing is to be traced again, so that no slot's samples have gaps among those that have been traced.
+    bool settled() const { return unsettled_ == 0; }
 
   private:
     void chooseRun(double secondsPerSample);
@@ -60,6 +64,7 @@ class Schedule {
     std::uint32_t firstSlot_ = 0;                  // of the run of slots under way
     std::uint32_t runSlots_ = 0, runSamples_ = 0;  // its size, and the most samples in one dispatch
     std::uint32_t nextSample_;
+    std::uint64_t unsettled_ = 0;              // samples of slots that are to be traced again
     std::vector<WorkRange> retries_, behind_;  // behind_: what slots lack of what others have had
 };
 

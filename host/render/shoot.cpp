@@ -35,12 +35,15 @@ class Shooter {
     static constexpr std::uint32_t kFirstPaths = 2048;    // before any speed is known
     static constexpr std::uint32_t kMostDispatches = 16;  // of one batch: a second or two
 
+    /// A sum over lanes must not depend on which lane took which path, so it is exact.
+    __extension__ using Int128 = __int128;
+
     /// What a batch adds to the statistics.
     struct Batch {
         std::uint64_t paths = 0;
         std::uint64_t nonFinite = 0, lightRays = 0, bounceRays = 0, shadowRays = 0;
-        std::int64_t lastBounce = 0, previousBounce = 0;  // in quanta
-        bool overflowed = false;
+        Int128 lastBounce = 0, previousBounce = 0;  // in units of shared::kStatisticsQuanta
+        bool clamped = false;
         bool complete = true;
     };
 
@@ -53,7 +56,7 @@ class Shooter {
             statistics.samples = context_.samplesTotal();
         }
         std::uint32_t dispatches = 1;
-        while (statistics.samples < context_.samplesTotal() && !statistics.stopped && !finishEarly()) {
+        while (statistics.samples < context_.samplesTotal() && !statistics.stopped && !finishEarly(0)) {
             const Batch batch = traceBatch(kernel, dispatches);
             if (batch.complete) {
                 takeOver(kernel, batch);
@@ -69,9 +72,9 @@ class Shooter {
         context_.reportProgress();
     }
 
-    /// A path per pixel is traced in any case.
-    bool finishEarly() const {
-        return context_.timeIsUp() && context_.film.lightPaths() >= context_.pixels();
+    /// A path per pixel is traced in any case. `underWay`: paths of the batch.
+    bool finishEarly(std::uint64_t underWay) const {
+        return context_.timeIsUp() && context_.film.lightPaths() + underWay >= context_.pixels();
     }
 
     /// The number of the first path that has not been traced.
@@ -90,13 +93,14 @@ class Shooter {
     Batch traceBatch(LightKernel& kernel, std::uint32_t dispatches) {
         Batch batch;
         const std::uint64_t end = nextPath() + context_.samplesTotal() - context_.statistics.samples;
-        std::uint64_t next = nextPath();
+        const std::uint64_t begin = nextPath();
+        std::uint64_t next = begin;
         unsigned submitted = 0;
         unsigned received = 0;
         for (;;) {
             // Keep two dispatches in flight, so that the device never waits.
             while (submitted - received < 2 && submitted < dispatches && next < end && batch.complete &&
-                   !(submitted > 0 && (context_.statistics.stopped || finishEarly()))) {
+                   !(submitted > 0 && (context_.statistics.stopped || finishEarly(next - begin)))) {
                 const PathRange range{next, dispatchPaths(kernel, end - next)};
                 kernel.submit(submitted++ % 2, range);
                 next += range.count;
@@ -125,7 +129,7 @@ class Shooter {
             batch.shadowRays += lane.shadowRays;
             batch.lastBounce += signed64(lane.lastBounce[0], lane.lastBounce[1]);
             batch.previousBounce += signed64(lane.previousBounce[0], lane.previousBounce[1]);
-            batch.overflowed = batch.overflowed || lane.clamped > 0 || lane.overflowed > 0;
+            batch.clamped = batch.clamped || lane.clamped > 0;
         }
     }
 
@@ -138,10 +142,10 @@ class Shooter {
         statistics.lightRays += batch.lightRays;
         statistics.bounceRays += batch.bounceRays;
         statistics.shadowRays += batch.shadowRays;
-        statistics.filmOverflowed = statistics.filmOverflowed || batch.overflowed;
-        const auto quantum = static_cast<double>(context_.deviceScene.quantum);
-        context_.lastBounce += static_cast<double>(batch.lastBounce) * quantum;
-        context_.previousBounce += static_cast<double>(batch.previousBounce) * quantum;
+        statistics.filmOverflowed = statistics.filmOverflowed || batch.clamped;
+        const double unit = static_cast<double>(context_.deviceScene.quantum * shared::kStatisticsQuanta);
+        context_.lastBounce += static_cast<double>(batch.lastBounce) * unit;
+        context_.previousBounce += static_cast<double>(batch.previousBounce) * unit;
     }
 
     RenderContext& context_;

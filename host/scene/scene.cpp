@@ -4,6 +4,14 @@
 
 namespace duolux {
 
+const char* nameOf(Sampler sampler) {
+    return sampler == Sampler::kIndependent ? "independent" : "sobol";
+}
+
+const char* nameOf(Integrator integrator) {
+    return integrator == Integrator::kLight ? "light" : "path";
+}
+
 Bounds boundsOf(const Geometry& geometry) {
     assert(!geometry.triangles.empty());
     const glm::vec3 first = geometry.positions[geometry.triangles[0].x];

@@ -58,6 +58,10 @@ enum class Integrator : std::uint8_t {
     kLight  ///< shooting: paths from the emitters
 };
 
+/// As in scene files and on the command line.
+const char* nameOf(Sampler sampler);
+const char* nameOf(Integrator integrator);
+
 struct RenderSettings {
     std::uint32_t width = 512, height = 512;  ///< pixels, 1..16384
     std::uint32_t spp = 64;                   ///< samples, or light paths, per pixel, 1..2^24

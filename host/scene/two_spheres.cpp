@@ -201,9 +201,9 @@ std::size_t writeTwoSpheres(const fs::path& folder, std::size_t triangles) {
     fs::create_directories(folder, ec);
     if (ec)
         throw MachineError(fmt::format("{}: cannot create the folder: {}", folder.string(), ec.message()));
-    writeTextFile(folder / "two_spheres.obj", obj.text());
-    writeTextFile(folder / "two_spheres.mtl", kMtl);
-    writeTextFile(folder / "two_spheres.json", kJson);
+    writeFile(folder / "two_spheres.obj", obj.text());
+    writeFile(folder / "two_spheres.mtl", kMtl);
+    writeFile(folder / "two_spheres.json", kJson);
     return obj.triangles();
 }
 

@@ -37,9 +37,9 @@ layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { LaneResult results[]; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 #ifdef DUOLUX_INT64_ATOMICS
-layout(binding = kBindingFilm, scalar) buffer FilmBlock { uint64_t sums[]; } film[kMaxFilmBands];
+layout(binding = kBindingFilm, scalar) buffer FilmBlock { uint64_t sums[]; } film[kFilmBands];
 #else
-layout(binding = kBindingFilm, scalar) buffer FilmBlock { uvec2 sums[]; } film[kMaxFilmBands];
+layout(binding = kBindingFilm, scalar) buffer FilmBlock { uvec2 sums[]; } film[kFilmBands];
 #endif
 layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 
@@ -105,7 +105,6 @@ struct Connection {
 struct LaneSums {
     uint nonFinite;
     uint clamped;
-    uint overflowed;
     uint lightRays;
     uint bounceRays;
     uint shadowRays;
@@ -124,17 +123,25 @@ float rowWeighted(Light l) { return maxComponent(params.rowWeight.x * l.invisibl
 // variances weighted by their worth is least for the work (Neyman's allocation).
 float connectionSurvival(float left, float whole) { return min(sqrt(left / whole), 1.0); }
 
-// Adds to one sum of the film; whether it left the range of 63 bits. The largest value is far below that range, so that no
-// sum passes through it unseen.
-bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
+// Adds to one sum of the film. What finds it beyond the range of 63 bits takes back what it has added, or the high word of
+// that: the sum stays beyond, and does not get as far as 2^64, where it would begin again. So it ends up beyond the range if
+// and only if the exact sum does, in whatever order; the host knows it by its sign.
+void filmAtomicAdd(uint band, uint index, uvec2 quanta) {
 #ifdef DUOLUX_INT64_ATOMICS
     uint64_t value = packUint2x32(quanta);
-    uint64_t before = atomicAdd(film[band].sums[index], value);
-    return unpackUint2x32(before + value).y >= 0x80000000u;
+    bool beyond = unpackUint2x32(atomicAdd(film[band].sums[index], value)).y >= 0x80000000u;
+    while (beyond) {  // a loop, which is skipped where no lane needs it
+        atomicAdd(film[band].sums[index], ~value + uint64_t(1u));
+        beyond = false;
+    }
 #else
     uint before = atomicAdd(film[band].sums[index].x, quanta.x);
     uint high = quanta.y + (before + quanta.x < before ? 1u : 0u);
-    return atomicAdd(film[band].sums[index].y, high) + high >= 0x80000000u;
+    bool beyond = atomicAdd(film[band].sums[index].y, high) >= 0x80000000u;
+    while (beyond) {
+        atomicAdd(film[band].sums[index].y, ~high + 1u);
+        beyond = false;
+    }
 #endif
 }
 
@@ -146,25 +153,21 @@ void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
     sums.nonFinite += fine ? 0u : 1u;
     if (!fine) return;
     sums.clamped += sum * params.inverseQuantum >= kFilmLargest ? 1u : 0u;
-    bool overflowed = false;
     uint base = (pixel % kBandPixels) * kFilmSums;
     for (uint band = 0u; band < kFilmBands; band++) {
         if (pixel / kBandPixels == band) {
             for (int c = 0; c < 3; c++) {
-                bool a = filmAtomicAdd(band, base + uint(c), filmQuantise(light.invisible[c], params.inverseQuantum));
-                bool b = filmAtomicAdd(band, base + 3u + uint(c), filmQuantise(light.visible[c], params.inverseQuantum));
-                overflowed = overflowed || a || b;
+                filmAtomicAdd(band, base + uint(c), filmQuantise(light.invisible[c], params.inverseQuantum));
+                filmAtomicAdd(band, base + 3u + uint(c), filmQuantise(light.visible[c], params.inverseQuantum));
             }
         }
     }
-    sums.overflowed += overflowed ? 1u : 0u;
 
     vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
     float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
-    if (scatterings == params.bounces) sums.lastBounce = filmAddSigned(sums.lastBounce, mean, params.inverseQuantum);
-    if (scatterings + 1u == params.bounces) {
-        sums.previousBounce = filmAddSigned(sums.previousBounce, mean, params.inverseQuantum);
-    }
+    float inverseUnit = params.inverseQuantum * (1.0 / kStatisticsQuanta);
+    if (scatterings == params.bounces) sums.lastBounce = filmAddSigned(sums.lastBounce, mean, inverseUnit);
+    if (scatterings + 1u == params.bounces) sums.previousBounce = filmAddSigned(sums.previousBounce, mean, inverseUnit);
 }
 
 // Sets up a ray to the camera. `light`: intensity towards it, W per steradian.
@@ -176,7 +179,8 @@ void connect(inout Connection connection, LightPath path, vec3 origin, CameraCon
     float survival = connectionSurvival(rowWeighted(arriving), max(params.rowWeight.x, params.rowWeight.y) * brightness);
     uint dimension = sampleDimension(scatterings, path.crossings, kDimensionCamera);
     float roulette = sampleChoice(path.id.y, path.id.x, dimension, params.seed).x;
-    connection.pending = camera.visible && brightness > 0.0 && roulette < survival;
+    // Not the other way round: what is not a number is traced, and counted when it arrives.
+    connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
     connection.origin = origin;
     connection.direction = camera.direction;
     connection.distance = camera.distance;
@@ -238,7 +242,8 @@ void endSegment(inout LightPath path, inout Vertex vertex) {
 
     uint dimension = sampleDimension(path.scatterings, 0u, kDimensionDirection);
     vec2 u = samplePair(kSampler, path.id.y, path.id.x, dimension, params.seed);
-    // In the frame of the geometric normal: the adjoint's cosine on this side is that one's.
+    // Diffuse light is sampled about the geometric normal, whose cosine the adjoint has on this side: so all directions
+    // that the surface scatters to are met. wi has the place of wo: a BSDF is reciprocal.
     vec3 normal = vertex.point.geometricNormal;
     BsdfSample s = bsdfSample(vertex.bsdf, toFrame(normal, vertex.wi), u);
     path.flux = lightScale(vertex.flux, s.weight * (weightSum / (vertex.weight * survival)));
@@ -287,7 +292,7 @@ void meetSurface(inout LightPath path, inout Vertex vertex, inout Connection con
     Light scattered = lightScale(lightApply(opaqueOf(materialIndex), path.flux), vec3(adjoint));
     CameraConnection camera = connectToCamera(params, point.position);
     float cosine = max(dot(point.geometricNormal, camera.direction), 0.0);
-    vec3 f = bsdfEvaluate(material.bsdf, toFrame(point.geometricNormal, camera.direction), toFrame(point.geometricNormal, wi));
+    vec3 f = bsdfEvaluate(material.bsdf, toFrame(point.shadingNormal, camera.direction), toFrame(point.shadingNormal, wi));
     connect(connection, path, point.position, camera, lightScale(scattered, f * cosine), path.scatterings + 1u);
 
     float weight = carried(lightScale(scattered, bsdfAlbedo(material.bsdf, wi)));
@@ -335,10 +340,10 @@ Traversal nextRay(LightPath path, Connection connection, bool hasPath, inout Lan
     return ray;
 }
 
-LaneSums emptySums() { return LaneSums(0u, 0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u)); }
+LaneSums emptySums() { return LaneSums(0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u)); }
 
 LaneResult laneResult(LaneSums sums) {
-    return LaneResult(sums.nonFinite, sums.clamped, sums.overflowed, sums.lightRays, sums.bounceRays, sums.shadowRays,
+    return LaneResult(sums.nonFinite, sums.clamped, sums.lightRays, sums.bounceRays, sums.shadowRays,
                       uint[2](sums.lastBounce.x, sums.lastBounce.y),
                       uint[2](sums.previousBounce.x, sums.previousBounce.y));
 }

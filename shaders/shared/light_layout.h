@@ -12,6 +12,7 @@ DUOLUX_BEGIN
 DUOLUX_CONST uint kBindingFilm = 9u;
 DUOLUX_CONST uint kMaxFilmBands = 8u;
 DUOLUX_CONST uint kFilmSums = 6u;
+DUOLUX_CONST float kStatisticsQuanta = 4096.0f;
 
 DUOLUX_CONST uint kSpecConnection = 15u;   // one of the kTransmittance...: what surfaces do to light on its way to the camera
 DUOLUX_CONST uint kSpecFilmBands = 16u;
@@ -31,16 +32,16 @@ struct LightDispatch {
 struct LaneResult {
     uint nonFinite;           // contributions dropped because they were not finite
     uint clamped;             // contributions brighter than the film can hold
-    uint overflowed;          // sums that left the range of 63 bits
     uint lightRays;
     uint bounceRays;
     uint shadowRays;          // to the camera
-    uint lastBounce[2];       // displayed radiance (mean of channels) with PathParams.bounces scattering events, in quanta
+    uint lastBounce[2];       // displayed radiance (mean of channels) with PathParams.bounces scattering events, in units
+                              // of kStatisticsQuanta, of which many fit however bright they are
     uint previousBounce[2];   // with one fewer
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LaneResult) == 40 && sizeof(LightDispatch) == 24);
+static_assert(sizeof(LaneResult) == 36 && sizeof(LightDispatch) == 24);
 #endif
 
 DUOLUX_END

@@ -71,6 +71,37 @@ TEST_P(CheckpointCommands, AnInterruptedRenderGoesOnAsIfNothingHadHappened) {
     EXPECT_EQ(bytes("again.exr"), bytes("whole.exr"));
 }
 
+TEST_P(CheckpointCommands, TheRangeOfACheckpointIsTrue) {
+    // Fewer samples than it has: all are kept, and told.
+    ASSERT_EQ(render({"--spp", "10", "--checkpoint", "ten", "-o", "ten.exr"}).status, 0);
+    ASSERT_EQ(render({"--spp", "5", "--resume", "ten", "--checkpoint", "five", "-o", "five.exr"}).status, 0);
+    EXPECT_EQ(bytes("five.exr"), bytes("ten.exr"));
+    ASSERT_EQ(render({"--spp", "10", "--sample-range", "5:10", "--checkpoint", "half", "-o", "h.exr"}).status,
+              0);
+    EXPECT_THAT(run({"merge", "-o", "none.exr", "five", "half"}).err, HasSubstr("has samples 5 to 9"));
+    // To the end of its own range unless --spp says otherwise.
+    ASSERT_EQ(render({"--spp", "10", "--sample-range", "5:7", "--checkpoint", "part", "-o", "a.exr"}).status,
+              0);
+    ASSERT_EQ(render({"--resume", "part", "-o", "b.exr"}).status, 0);
+    EXPECT_EQ(bytes("a.exr"), bytes("b.exr"));
+    ASSERT_EQ(render({"--spp", "10", "--resume", "part", "-o", "c.exr"}).status, 0);
+    EXPECT_EQ(bytes("c.exr"), bytes("h.exr"));
+    EXPECT_EQ(render({"--spp", "5", "--resume", "part", "-o", "c.exr"}).status, 2);
+}
+
+TEST_P(CheckpointCommands, WhatCannotBeKeptDoesNotCostThePicture) {
+    // Files of at most 20 KiB: the picture fits, the checkpoint does not.
+    const std::string command =
+        std::string("trap '' XFSZ; ulimit -f 20; exec " DUOLUX_EXECUTABLE " render ") +
+        DUOLUX_ASSETS "/cornell/cornell.json --quiet --device cpu --size 48x32 --spp 4 " + "--integrator " +
+        GetParam() + " --checkpoint state -o a.png";
+    const ProgramResult result = runProgram("/bin/bash", folder_.path(), {"-c", command});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("state: cannot write"));
+    EXPECT_TRUE(exists("a.png"));
+    EXPECT_FALSE(exists("state"));
+}
+
 TEST_P(CheckpointCommands, ACheckpointOfSomethingElseIsRefusedAndKept) {
     ASSERT_EQ(render({"--spp", "2", "--checkpoint", "state", "-o", "a.png"}).status, 0);
     const std::string before = bytes("state");

@@ -186,6 +186,11 @@ TEST(Determinism, DispatchesAreBoundedWhereAPathMeetsManySurfaces) {
     // Aimed at 0.1 s; machines are noisy, but not ten times over.
     EXPECT_LT(output.statistics.longestDispatchSeconds, 1.0);
     EXPECT_TRUE(sameBits(output.film, filmOf(stack)));
+
+    stack.camera.vfov = 60.0f;
+    const RenderOutput light = render(device(), byLight(stack), {});
+    EXPECT_EQ(light.film.lightPaths(), 32u * 32u * 20u);
+    EXPECT_LT(light.statistics.longestDispatchSeconds, 1.0);
 }
 
 TEST(Determinism, ATimeLimitLeavesNoPixelWithoutSample) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "host/render/render.h"
 #include "host/scene/load.h"
 #include "host/scene/two_spheres.h"
+#include "tests/statistical/films.h"
 #include "tests/statistical/renders.h"
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
@@ -72,11 +74,12 @@ Scene twoSpheres(const Reflectance& reflectance) {
 }
 
 /// A coarse sphere with smooth normals, far from those of its faces, above a floor.
-Scene smoothSphere(const Reflectance& reflectance) {
+Scene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kBoth) {
     SceneBuilder builder;
     Material grey;
     grey.name = "grey";
     grey.diffuse = {0.8f, 0.6f, 0.4f};
+    grey.sides = sides;
     const std::uint32_t surface = builder.add(grey);
     builder.sphere({0, 1, 0}, 1.0f, 1, Facing::kOutward, surface);
     Geometry& geometry = builder.scene.geometry;
@@ -98,6 +101,36 @@ Scene smoothSphere(const Reflectance& reflectance) {
     return scene;
 }
 
+/// A floor whose normals lean far to one side, and the walls beside it, which only the floor lights: the lamp
+/// is low and shines down.
+Scene leaningFloor() {
+    SceneBuilder builder;
+    Material grey;
+    grey.name = "grey";
+    grey.diffuse = glm::vec3(0.8f);
+    const std::uint32_t surface = builder.add(grey);
+    builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, surface);
+    Geometry& geometry = builder.scene.geometry;
+    geometry.normals.push_back(glm::normalize(glm::vec3(1, 0.7f, 0.2f)));
+    geometry.normalIndices.assign(geometry.triangles.size(), glm::uvec3(0));
+    builder.quad({-1, 0, -1}, {1, 0, -1}, {1, 2, -1}, {-1, 2, -1}, surface);
+    builder.quad({-1, 0, 1}, {-1, 0, -1}, {-1, 2, -1}, {-1, 2, 1}, surface);
+    builder.quad({1, 0, -1}, {1, 0, 1}, {1, 2, 1}, {1, 2, -1}, surface);
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.diffuse = glm::vec3(0.0f);
+    lamp.emission.invisible = {30, 20, 10};
+    builder.quad({-0.4f, 0.4f, -0.4f}, {-0.2f, 0.4f, -0.4f}, {-0.2f, 0.4f, 0}, {-0.4f, 0.4f, 0},
+                 builder.add(lamp));
+    geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
+    Scene& scene = builder.scene;
+    scene.reflectance = preset("global");
+    scene.camera = {{0, 1.2f, 4.5f}, {0, 0.9f, 0}, {0, 1, 0}, 38.0f};
+    scene.render.width = scene.render.height = 32;
+    scene.render.bounces = 3;
+    return scene;
+}
+
 std::vector<PairCase> pairCases() {
     std::vector<PairCase> cases;
     const std::vector<std::pair<std::string, Reflectance>> reflectances = {
@@ -112,6 +145,9 @@ std::vector<PairCase> pairCases() {
         cases.push_back({"TwoSpheres" + name, twoSpheres(reflectance)});
         cases.push_back({"SmoothSphere" + name, smoothSphere(reflectance)});
     }
+    cases.push_back({"LeaningFloor", leaningFloor()});
+    // Seen through, a sphere would scatter on its inside, too.
+    cases.push_back({"SmoothSphereOneSided", smoothSphere(fullReflectance(), Sides::kFront)});
     return cases;
 }
 
@@ -157,29 +193,34 @@ TEST(LightPaths, BrighterThanTheFilmIsClampedAndTold) {
 }
 
 /// Light that grows 28 times with each bounce: no contribution is too bright for the film, but their sums
-/// are.
+/// are, on the device or where parts are added up.
 TEST(LightPaths, SumsBeyondTheFilmAreSaturatedAndTold) {
     const std::vector<ExactCase> cases = enclosureCases();
     const auto growing = std::ranges::find(cases, "EnclosureGrowing", &ExactCase::name);
     ASSERT_NE(growing, cases.end());
-    Scene scene = growing->scene;
+    Scene scene = byLight(growing->scene);
     scene.reflectance = {matrix(35.0f, 0.0f, 35.0f, 0.0f), {}};
     scene.render.bounces = 4;
     scene.render.width = scene.render.height = 4;
-    scene.render.integrator = Integrator::kLight;
-    for (const bool noInt64Atomics : {false, true}) {
+    scene.render.spp = 1u << 15;
+    const RenderOutput whole = render(device(), scene);
+    EXPECT_TRUE(whole.statistics.filmOverflowed);
+    constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+    for (const Film::PixelSum& sum : whole.film.lightSums())
+        EXPECT_EQ(sum.visible[2], kMax);                    // blue reflects most
+    EXPECT_LT(whole.film.lightSums()[0].visible[0], kMax);  // red little
+    EXPECT_GT(whole.statistics.previousBounceRadiance, 0.0);
+    EXPECT_GT(whole.statistics.lastBounceRadiance, 10.0 * whole.statistics.previousBounceRadiance);
+    // In any order, and in any parts.
+    for (const auto& [noInt64Atomics, pathsPerDispatch] :
+         {std::pair(true, 0u), {false, 5000u}, {true, 5000u}}) {
         RenderControl control;
         control.noInt64Atomics = noInt64Atomics;
-        scene.render.spp = 1u << 15;
-        const RenderOutput output = render(device(), scene, control);
-        EXPECT_TRUE(output.statistics.filmOverflowed);
-        for (const Film::PixelSum& sum : output.film.lightSums()) {
-            for (int c = 0; c < 3; ++c)
-                EXPECT_GE(std::min(sum.visible[c], sum.invisible[c]), 0);
-        }
-        scene.render.spp = 16;
-        EXPECT_FALSE(render(device(), scene, control).statistics.filmOverflowed);
+        control.maxPixelsPerDispatch = pathsPerDispatch;
+        EXPECT_TRUE(sameBits(render(device(), scene, control).film, whole.film));
     }
+    scene.render.spp = 16;
+    EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::ui
         scene.render.seed = firstSeed + i;
         const RenderOutput output = render(device(), scene, control);
         EXPECT_EQ(output.statistics.nonFiniteSamples, 0u);
-        EXPECT_FALSE(output.film.overflowed());
+        EXPECT_FALSE(output.statistics.filmOverflowed);
         EXPECT_EQ(scene.render.integrator == Integrator::kLight ? output.film.lightPaths()
                                                                 : output.film.totalSamples(),
                   std::uint64_t{scene.render.width} * scene.render.height * spp);

@@ -92,6 +92,29 @@ TEST_P(Resume, StoppedAnywhereLosesNothing) {
     }
 }
 
+TEST_P(Resume, KeepsNoGapsWhereTheDriverCutsShort) {
+    Scene panes = stackedPanesCase(100).scene;
+    panes.render.integrator = GetParam();
+    panes.render.width = panes.render.height = 24;
+    panes.render.spp = 9;
+    const Film whole = render(device(), panes, {}).film;
+    std::vector<RenderState> states;
+    RenderControl keeping;
+    keeping.maxPixelsPerDispatch = 150;
+    keeping.maxSamplesPerDispatch = 4;
+    keeping.checkpointSeconds = 0.0;
+    keeping.onCheckpoint = [&](const Film& film, const RenderStatistics&) {
+        states.push_back({film, 0.0, 0.0, false});
+    };
+    render(device(), panes, keeping);
+    ASSERT_GT(states.size(), 3u);
+    for (std::size_t i = 0; i < states.size(); i += 1 + states.size() / 8) {
+        RenderControl control;
+        control.resume = &states[i];
+        EXPECT_TRUE(sameBits(render(device(), panes, control).film, whole)) << i;
+    }
+}
+
 TEST_P(Resume, RangesAddUp) {
     const Film whole = render(device(), scene(), {}).film;
     Film sum(whole.width(), whole.height(), whole.quantum());

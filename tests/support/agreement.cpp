@@ -145,8 +145,10 @@ void judgeScale(const Values& values, std::span<const RadianceImage> renders, st
                     }
                 }
                 const Mean b = expected.mean();
-                Mean a = rendered.mean();
-                if (criterion.lightPaths && size > 1) {
+                Mean a;
+                if (!criterion.lightPaths || size == 1) {
+                    a = rendered.mean();
+                } else {
                     const double count = static_cast<double>(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0);
                     a = withVarianceOfImage(meanOver(renders, component, pixels, channel), b.value,
                                             values.varianceToMean[component][channel] / count);

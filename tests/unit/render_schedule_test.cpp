@@ -98,6 +98,7 @@ TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
     while (const auto range = schedule.next(0.0, 128, Wanted::kFirstPass)) {
         EXPECT_EQ(range->firstSample, 0u);
         count(counts, *range);
+        schedule.traced(*range);
     }
     expectEachOnce(counts, 600, 1);
     EXPECT_FALSE(schedule.next(0.0, 128, Wanted::kFirstPass));
@@ -106,9 +107,18 @@ TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
         EXPECT_TRUE(schedule.settled());
         schedule.retry({0, 10, 3, 2});
         EXPECT_FALSE(schedule.settled());
-        EXPECT_EQ(schedule.next(0.0, 128, wanted)->firstSample, 3u);
+        EXPECT_EQ(schedule.next(0.0, 1, wanted)->firstSample, 3u);
+        const WorkRange rest = *schedule.next(0.0, 128, wanted);
+        EXPECT_EQ(rest.firstSample, 4u);
         EXPECT_FALSE(schedule.next(0.0, 128, wanted));
+        // What is under way leaves a gap until it is back, and longer if it is cut short once more.
+        schedule.traced({0, 10, 3, 1, true});
+        EXPECT_FALSE(schedule.settled());
+        schedule.retry(rest);
+        EXPECT_FALSE(schedule.settled());
+        schedule.traced(*schedule.next(0.0, 128, wanted));
     }
+    EXPECT_TRUE(schedule.settled());
 }
 
 TEST(Schedule, GoesOnFromAnyState) {
@@ -136,6 +146,16 @@ TEST(Schedule, GoesOnFromAnyState) {
     resumed(uneven);
     uneven[299] = kEnd - kFirst;
     resumed(uneven);
+
+    // Fewer samples than some slots have had are not exceeded by the others.
+    Schedule fewer(300, kFirst, kFirst + 9, 100, 16);
+    fewer.resume(uneven);
+    Counts some;
+    while (const auto range = fewer.next(0.0, 128, Wanted::kAll))
+        count(some, *range);
+    EXPECT_EQ(some.size(), 20u * 8u + 149u * 9u);
+    for (const auto& [work, times] : some)
+        EXPECT_TRUE(work.second < kFirst + 9 && times == 1);
 
     // When time is up slots without a sample get their first, and no more.
     Schedule schedule(300, kFirst, kEnd, 100, 16);
