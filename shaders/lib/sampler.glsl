@@ -6,8 +6,9 @@
 #include "shaders/lib/sobol.glsl"
 #include "shaders/shared/path_layout.h"
 
-// What a pair of numbers is for; with the vertex it makes the dimension. A light path leaves its emitter in the direction
-// of the dimension that for a path from the camera is the pixel's, and has no light to connect to but its first.
+// What a pair of numbers is for; with the vertex it makes the dimension. A light path has other uses for two of them: the
+// direction from its emitter, and connections to the camera. Of the latter's dimension at the emitter the pair of
+// sampleWords is the point on it, the two numbers of sampleChoice are the connection's and the side.
 const uint kDimensionPixel = 0u;
 const uint kDimensionEmission = 0u;
 const uint kDimensionCamera = 1u;

@@ -1,4 +1,5 @@
-// Parameters, bindings and records of the path-tracing kernel (and in part of the light-tracing one), shared by C++ and GLSL (scalar block layout).
+// Parameters, bindings and records of the path-tracing kernel, and in part of the light-tracing one, shared by C++ and GLSL
+// (scalar block layout).
 #ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 

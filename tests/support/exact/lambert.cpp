@@ -66,6 +66,7 @@ struct Floor {
     /// Panes between the floor and both the lamp and the camera, from the top; they absorb what they do not
     /// pass.
     std::vector<LightMatrix> panes;
+    float distance = 0.25f;  ///< of panes
 };
 
 /// A whole image of a floor, so that a mirrored, rotated or shifted camera shows. With panes the camera sees
@@ -89,7 +90,7 @@ ExactCase floorImage(const Floor& setup) {
         builder.quad({-9, height, 9}, {9, height, 9}, {9, height, -9}, {-9, height, -9}, index);
         up = up * reference::channelsOf(pane);
         down = reference::channelsOf(pane) * down;
-        height -= 0.25f;
+        height -= setup.distance;
     }
     Scene& scene = builder.scene;
     scene.reflectance = setup.reflectance;
@@ -151,6 +152,9 @@ std::vector<ExactCase> lambertCases() {
                            {}};
     cases.push_back(floorImage({"LambertFloorAmberTeal", full, {amber, teal}}));
     cases.push_back(floorImage({"LambertFloorTealAmber", full, {teal, amber}}));
+    // Both are met, one after the other.
+    const LightMatrix half = matrix(0.5f, 0, 0, 0.75f), third = matrix(0.3f, 0, 0, 0.6f);
+    cases.push_back(floorImage({"LambertFloorCoincidentPanes", full, {half, third}, 0.0f}));
     cases.push_back(floorImage({"LambertFloorOpaqueToVisible", preset("global"), {matrix(1, 0, 0, 0)}}));
     return cases;
 }
