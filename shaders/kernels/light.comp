@@ -119,29 +119,16 @@ float carried(Light l) { return maxComponent(l.invisible + (kSecondColumn ? l.vi
 // How much light counts in a pixel.
 float rowWeighted(Light l) { return maxComponent(params.rowWeight.x * l.invisible + params.rowWeight.y * l.visible); }
 
-// Russian roulette on connections, where only a part of their worth is left: by its square root, with which the sum of
-// variances weighted by their worth is least for the work (Neyman's allocation).
-float connectionSurvival(float left, float whole) { return min(sqrt(left / whole), 1.0); }
+// Russian roulette on connections, where only a part of their worth is left.
+float connectionSurvival(float left, float whole) { return min(left / whole, 1.0); }
 
-// Adds to one sum of the film. What finds it beyond the range of 63 bits takes back what it has added, or the high word of
-// that: the sum stays beyond, and does not get as far as 2^64, where it would begin again. So it ends up beyond the range if
-// and only if the exact sum does, in whatever order; the host knows it by its sign.
-void filmAtomicAdd(uint band, uint index, uvec2 quanta) {
+// Adds to one sum of the film; whether that was beyond the range of 63 bits before.
+bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
 #ifdef DUOLUX_INT64_ATOMICS
-    uint64_t value = packUint2x32(quanta);
-    bool beyond = unpackUint2x32(atomicAdd(film[band].sums[index], value)).y >= 0x80000000u;
-    while (beyond) {  // a loop, which is skipped where no lane needs it
-        atomicAdd(film[band].sums[index], ~value + uint64_t(1u));
-        beyond = false;
-    }
+    return unpackUint2x32(atomicAdd(film[band].sums[index], packUint2x32(quanta))).y >= 0x80000000u;
 #else
     uint before = atomicAdd(film[band].sums[index].x, quanta.x);
-    uint high = quanta.y + (before + quanta.x < before ? 1u : 0u);
-    bool beyond = atomicAdd(film[band].sums[index].y, high) >= 0x80000000u;
-    while (beyond) {
-        atomicAdd(film[band].sums[index].y, ~high + 1u);
-        beyond = false;
-    }
+    return atomicAdd(film[band].sums[index].y, quanta.y + (before + quanta.x < before ? 1u : 0u)) >= 0x80000000u;
 #endif
 }
 
@@ -153,12 +140,23 @@ void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
     sums.nonFinite += fine ? 0u : 1u;
     if (!fine) return;
     sums.clamped += sum * params.inverseQuantum >= kFilmLargest ? 1u : 0u;
-    uint base = (pixel % kBandPixels) * kFilmSums;
+    uint index = (pixel % kBandPixels) * kFilmSums;
+    uvec2[kFilmSums] quanta;
+    for (int c = 0; c < 3; c++) {
+        quanta[c] = filmQuantise(light.invisible[c], params.inverseQuantum);
+        quanta[c + 3] = filmQuantise(light.visible[c], params.inverseQuantum);
+    }
     for (uint band = 0u; band < kFilmBands; band++) {
         if (pixel / kBandPixels == band) {
-            for (int c = 0; c < 3; c++) {
-                filmAtomicAdd(band, base + uint(c), filmQuantise(light.invisible[c], params.inverseQuantum));
-                filmAtomicAdd(band, base + 3u + uint(c), filmQuantise(light.visible[c], params.inverseQuantum));
+            uint beyond = 0u;
+            for (uint i = 0u; i < kFilmSums; i++) beyond |= filmAtomicAdd(band, index + i, quanta[i]) ? 1u << i : 0u;
+            // A sum beyond the range stays there, but must not get as far as 2^64, where it would begin again: what finds it
+            // there takes away what it has added. So a sum ends up beyond the range if and only if the exact one does, in
+            // whatever order; the host knows it by its sign.
+            while (beyond != 0u) {
+                uint i = uint(findLSB(beyond));
+                beyond &= beyond - 1u;
+                filmAtomicAdd(band, index + i, filmNegate(quanta[i]));
             }
         }
     }

@@ -22,11 +22,13 @@ uvec2 filmAdd(uvec2 sum, uvec2 term) {
     return uvec2(low, sum.y + term.y + (low < term.x ? 1u : 0u));
 }
 
+// The two's complement.
+uvec2 filmNegate(uvec2 term) { return uvec2(~term.x + 1u, ~term.y + (term.x == 0u ? 1u : 0u)); }
+
 // A value of either sign; the sum is a two's complement number.
 uvec2 filmAddSigned(uvec2 sum, float value, float inverseQuantum) {
     uvec2 term = filmQuantise(abs(value), inverseQuantum);
-    uvec2 negated = uvec2(~term.x + 1u, ~term.y + (term.x == 0u ? 1u : 0u));
-    return filmAdd(sum, value < 0.0 ? negated : term);
+    return filmAdd(sum, value < 0.0 ? filmNegate(term) : term);
 }
 
 // Three channels of one component.

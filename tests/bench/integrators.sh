@@ -47,6 +47,6 @@ for scene in assets/cornell/cornell.json assets/spot/spot.json "$folder/two_sphe
     echo "$(basename "$scene" .json) $preset $(mean path) $(mean light)" | awk '{
       path = $3 * $4; light = $5 * $6
       printf "| %s | `%s` | %.2g x %.2f = %.2g | %.2g x %.2f = %.2g | %s |\n", $1, $2, $3, $4, path, $5, $6, light,
-        light > 0 ? sprintf("%.2g", path / light) : "-" }'
+        (light > 0 ? sprintf("%.2g", path / light) : "-") }'
   done
 done
