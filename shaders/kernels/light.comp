@@ -87,6 +87,15 @@ struct Vertex {
     float weightSum;  // of all vertices of the segment
 };
 
+// What leaves a point of a path for the camera, if that is on the side of the normal: radiance per path and unit of area,
+// the emitter's or what a surface scatters. (W sr^-1 in all, for a particle's flux is in W.)
+struct Outgoing {
+    vec3 origin;
+    vec3 normal;
+    Light radiance;
+    uint scatterings;  // events on the path
+};
+
 // A ray to the camera under way.
 struct Connection {
     bool pending;
@@ -140,14 +149,14 @@ void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
     sums.nonFinite += fine ? 0u : 1u;
     if (!fine) return;
     sums.clamped += sum * params.inverseQuantum >= kFilmLargest ? 1u : 0u;
-    uint index = (pixel % kBandPixels) * kFilmSums;
+    uint index = (kFilmBands > 1u ? pixel % kBandPixels : pixel) * kFilmSums;
     uvec2[kFilmSums] quanta;
     for (int c = 0; c < 3; c++) {
         quanta[c] = filmQuantise(light.invisible[c], params.inverseQuantum);
         quanta[c + 3] = filmQuantise(light.visible[c], params.inverseQuantum);
     }
     for (uint band = 0u; band < kFilmBands; band++) {
-        if (pixel / kBandPixels == band) {
+        if (kFilmBands == 1u || pixel / kBandPixels == band) {
             uint beyond = 0u;
             for (uint i = 0u; i < kFilmSums; i++) beyond |= filmAtomicAdd(band, index + i, quanta[i]) ? 1u << i : 0u;
             // A sum beyond the range stays there, but must not get as far as 2^64, where it would begin again: what finds it
@@ -168,18 +177,19 @@ void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
     if (scatterings + 1u == params.bounces) sums.previousBounce = filmAddSigned(sums.previousBounce, mean, inverseUnit);
 }
 
-// Sets up a ray to the camera. `light`: intensity towards it, W per steradian.
-void connect(inout Connection connection, LightPath path, vec3 origin, CameraConnection camera, Light light,
-             uint scatterings) {
-    Light arriving = lightScale(light, vec3(camera.importance / (camera.distance * camera.distance)));
+// Sets up a ray to the camera.
+void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
+    CameraConnection camera = connectToCamera(params, outgoing.origin);
+    float cosine = max(dot(outgoing.normal, camera.direction), 0.0);
+    Light arriving = lightScale(outgoing.radiance, vec3(cosine * camera.importance / (camera.distance * camera.distance)));
     // Light that counts less than its brightness, by components that are not displayed, is connected less often.
-    float brightness = maxComponent(arriving.invisible + arriving.visible);
+    float brightness = maxComponent(max(arriving.invisible, arriving.visible));
     float survival = connectionSurvival(rowWeighted(arriving), max(params.rowWeight.x, params.rowWeight.y) * brightness);
-    uint dimension = sampleDimension(scatterings, path.crossings, kDimensionCamera);
+    uint dimension = sampleDimension(outgoing.scatterings, path.crossings, kDimensionCamera);
     float roulette = sampleChoice(path.id.y, path.id.x, dimension, params.seed).x;
     // Not the other way round: what is not a number is traced, and counted when it arrives.
     connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
-    connection.origin = origin;
+    connection.origin = outgoing.origin;
     connection.direction = camera.direction;
     connection.distance = camera.distance;
     connection.t = 0.0;
@@ -188,70 +198,66 @@ void connect(inout Connection connection, LightPath path, vec3 origin, CameraCon
     connection.roulette = roulette;
     connection.survival = survival;
     connection.pixel = camera.pixel;
-    connection.scatterings = scatterings;
+    connection.scatterings = outgoing.scatterings;
 }
 
-// The particle of this number leaves its emitter, which is connected to the camera.
-LightPath emitPath(inout Connection connection, uvec2 id) {
+// The particle of this number is at its emitter, as at a vertex that it is about to leave.
+void emitPath(out LightPath path, out Vertex vertex, out Outgoing outgoing, uvec2 id) {
     uint dimension = sampleDimension(0u, 0u, kDimensionLight);
     LightSample light = sampleLight(params.lightCount, sampleWords(kSampler, id.y, id.x, dimension, params.seed));
     Material material = fetchMaterial(light.material);
     bool bothSides = (material.flags & kMaterialEmitsBack) != 0u;
     bool front = !bothSides || sampleChoice(id.y, id.x, dimension, params.seed).y < 0.5;
     vec3 normal = front ? light.normal : -light.normal;
-    vec2 u = samplePair(kSampler, id.y, id.x, sampleDimension(0u, 0u, kDimensionEmission), params.seed);
-
-    LightPath path;
+    Light flux = lightScale(material.emission, vec3(emittedFlux(material.lightPdfArea, bothSides ? 2.0 : 1.0)));
+    SurfacePoint point = SurfacePoint(light.position + normal * light.positionError, normal, normal);
+    // Its directions are those of a white diffuse surface.
+    vertex = Vertex(flux, Bsdf(vec3(1.0)), point, normal, 1.0, 0.0);
     path.id = id;
-    path.flux = lightScale(material.emission, vec3(emittedFlux(material.lightPdfArea, bothSides ? 2.0 : 1.0)));
-    path.emitted = carried(path.flux);
-    path.origin = light.position + normal * light.positionError;
-    path.direction = fromFrame(normal, cosineHemisphere(u));
-    path.t = 0.0;
-    path.primitive = kNoTriangle;
+    path.emitted = carried(flux);
     path.scatterings = 0u;
     path.crossings = 0u;
     path.ended = !(path.emitted > 0.0) || params.bounces == 0u;
 
     // Whatever side the particle leaves from, the camera sees the one that faces it.
     bool seenFront = dot(light.normal, params.cameraPosition - light.position) > 0.0;
-    vec3 seenNormal = seenFront ? light.normal : -light.normal;
-    vec3 origin = light.position + seenNormal * light.positionError;
-    CameraConnection camera = connectToCamera(params, origin);
-    float cosine = max(dot(seenNormal, camera.direction), 0.0);
-    Light emission = materialEmission(material, seenFront);
-    connect(connection, path, origin, camera, lightScale(emission, vec3(cosine / material.lightPdfArea)), 0u);
-    return path;
+    outgoing.normal = seenFront ? light.normal : -light.normal;
+    outgoing.origin = light.position + outgoing.normal * light.positionError;
+    outgoing.radiance = lightScale(materialEmission(material, seenFront), vec3(1.0 / material.lightPdfArea));
+    outgoing.scatterings = 0u;
 }
 
-// The particle goes on from the chosen vertex of the segment, or ends.
-void endSegment(inout LightPath path, inout Vertex vertex) {
+// Whether the particle goes on from the chosen vertex of the segment; if it does, the vertex' flux carries the weights.
+bool endSegment(LightPath path, inout Vertex vertex) {
     float weightSum = vertex.weightSum;
     vertex.weightSum = 0.0;
-    path.ended = true;
-    if (!kInvisibleScatters && !kSecondColumn) return;
-    if (!(weightSum > 0.0)) return;
+    if (!kInvisibleScatters && !kSecondColumn) return false;
+    if (!(weightSum > 0.0) || path.scatterings + 1u >= params.bounces) return false;
     // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted. Where that
     // grows (crossing surfaces that also scatter) every particle survives and carries the growth.
     float relative = weightSum / path.emitted;
     float survival = path.scatterings >= 2u && relative < 1.0 ? min(relative, 0.95) : 1.0;
     uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
-    if (sampleChoice(path.id.y, path.id.x, choice, params.seed).y >= survival) return;
+    vertex.flux = lightScale(vertex.flux, vec3(weightSum / (vertex.weight * survival)));
+    return sampleChoice(path.id.y, path.id.x, choice, params.seed).y < survival;
+}
 
-    uint dimension = sampleDimension(path.scatterings, 0u, kDimensionDirection);
+// The particle leaves a vertex for a new segment.
+void beginSegment(inout LightPath path, Vertex vertex, uint purpose) {
+    uint dimension = sampleDimension(path.scatterings, 0u, purpose);
     vec2 u = samplePair(kSampler, path.id.y, path.id.x, dimension, params.seed);
     // Diffuse light is sampled about the geometric normal, whose cosine the adjoint has on this side: so all directions
     // that the surface scatters to are met. wi has the place of wo: a BSDF is reciprocal.
     vec3 normal = vertex.point.geometricNormal;
     BsdfSample s = bsdfSample(vertex.bsdf, toFrame(normal, vertex.wi), u);
-    path.flux = lightScale(vertex.flux, s.weight * (weightSum / (vertex.weight * survival)));
+    path.flux = lightScale(vertex.flux, s.weight);
     path.origin = vertex.point.position;
     path.direction = fromFrame(normal, s.wi);
     path.t = 0.0;
     path.primitive = kNoTriangle;
-    path.scatterings += 1u;
+    path.scatterings += purpose == kDimensionDirection ? 1u : 0u;
     path.crossings = 0u;
-    path.ended = !(s.pdf > 0.0) || path.scatterings >= params.bounces;
+    path.ended = !(s.pdf > 0.0);
 }
 
 // The ray to the camera has met a surface, or nothing more.
@@ -277,8 +283,9 @@ void meetConnection(inout Connection connection, inout LaneSums sums, Traversal 
     connection.pending = false;
 }
 
-// The particle has met a surface: the connection to the camera, a candidate for scattering, and the crossing.
-void meetSurface(inout LightPath path, inout Vertex vertex, inout Connection connection, Traversal ray, Triangle tri) {
+// The particle has met a surface: light for the camera, a candidate for scattering, and the crossing. Whether the segment
+// goes on.
+bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoing, Traversal ray, Triangle tri) {
     uint materialIndex = tri.materialFlags & kMaterialMask;
     Material material = fetchMaterial(materialIndex);
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
@@ -288,10 +295,9 @@ void meetSurface(inout LightPath path, inout Vertex vertex, inout Connection con
     vec3 wi = -path.direction;
     float adjoint = materialScatters(material, front) ? shadingAdjoint(point, wi) : 0.0;
     Light scattered = lightScale(lightApply(opaqueOf(materialIndex), path.flux), vec3(adjoint));
-    CameraConnection camera = connectToCamera(params, point.position);
-    float cosine = max(dot(point.geometricNormal, camera.direction), 0.0);
-    vec3 f = bsdfEvaluate(material.bsdf, toFrame(point.shadingNormal, camera.direction), toFrame(point.shadingNormal, wi));
-    connect(connection, path, point.position, camera, lightScale(scattered, f * cosine), path.scatterings + 1u);
+    vec3 wo = normalize(params.cameraPosition - point.position);
+    vec3 f = bsdfEvaluate(material.bsdf, toFrame(point.shadingNormal, wo), toFrame(point.shadingNormal, wi));
+    outgoing = Outgoing(point.position, point.geometricNormal, lightScale(scattered, f), path.scatterings + 1u);
 
     float weight = carried(lightScale(scattered, bsdfAlbedo(material.bsdf, wi)));
     if (weight > 0.0) {
@@ -305,15 +311,12 @@ void meetSurface(inout LightPath path, inout Vertex vertex, inout Connection con
         vertex.weightSum = weightSum;
     }
 
-    bool passes = false;
-    if (kTransmittance != kTransmittanceZero) {
-        path.flux = lightApply(transparentOf(materialIndex), path.flux);
-        passes = carried(path.flux) > 0.0;
-        path.t = ray.t;
-        path.primitive = ray.primitive;
-        path.crossings += 1u;
-    }
-    if (!passes) endSegment(path, vertex);
+    if (kTransmittance == kTransmittanceZero) return false;
+    path.flux = lightApply(transparentOf(materialIndex), path.flux);
+    path.t = ray.t;
+    path.primitive = ray.primitive;
+    path.crossings += 1u;
+    return carried(path.flux) > 0.0;
 }
 
 uvec2 pathNumber(uint index) {
@@ -321,10 +324,10 @@ uvec2 pathNumber(uint index) {
     return uvec2(low, dispatch.firstHigh + (low < index ? 1u : 0u));
 }
 
-// To the camera first, then along the path. Nothing is to be met where both have ended, nor by a lane without a path.
-Traversal nextRay(LightPath path, Connection connection, bool hasPath, inout LaneSums sums) {
-    bool toCamera = hasPath && connection.pending;
-    bool onPath = hasPath && !connection.pending && !path.ended;
+// To the camera first, then along the path. Nothing is to be met where both have ended.
+Traversal nextRay(LightPath path, Connection connection, inout LaneSums sums) {
+    bool toCamera = connection.pending;
+    bool onPath = !toCamera && !path.ended;
     bool emitted = path.scatterings + path.crossings == 0u;
     sums.shadowRays += toCamera ? 1u : 0u;
     sums.lightRays += onPath && emitted ? 1u : 0u;
@@ -358,30 +361,46 @@ void main() {
     Vertex vertex;
     vertex.weightSum = 0.0;
     Connection connection;
-    uint taken = atomicAdd(teams[progress].taken, 1u);
-    LightPath path = emitPath(connection, pathNumber(teamBegin + min(taken, teamPaths - 1u)));
-    Traversal ray = nextRay(path, connection, taken < teamPaths, sums);
+    connection.pending = false;
+    LightPath path;
+    path.ended = true;
+    bool hasPath = false;
+    bool working = true;
+    Traversal ray = nextRay(path, connection, sums);
 
-    while (taken < teamPaths) {
+    while (working) {
         traverse(ray, ordered, kLeaveTraversal, kLeaveNodes);
         if (!traversalAlive(ray)) {
             bool found = ray.triangle != kNoTriangle;
             Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
+            Outgoing outgoing;
+            bool connects = false;
+            bool leaves = false;
+            uint purpose = kDimensionDirection;
             if (connection.pending) {
                 meetConnection(connection, sums, ray, found, tri.materialFlags & kMaterialMask);
             } else if (!path.ended) {
-                if (found) {
-                    meetSurface(path, vertex, connection, ray, tri);
-                } else {
-                    endSegment(path, vertex);
-                }
+                connects = found;
+                bool passes = found && meetSurface(path, vertex, outgoing, ray, tri);
+                leaves = !passes && endSegment(path, vertex);
+                path.ended = !passes && !leaves;
             }
-            while (path.ended && !connection.pending && taken < teamPaths) {
-                atomicAdd(teams[progress].finished, 1u);
-                taken = atomicAdd(teams[progress].taken, 1u);
-                path = emitPath(connection, pathNumber(teamBegin + min(taken, teamPaths - 1u)));
+            // A loop, because only these skip what no lane needs.
+            while (working && path.ended && !connection.pending && !connects) {
+                if (hasPath) atomicAdd(teams[progress].finished, 1u);
+                uint taken = atomicAdd(teams[progress].taken, 1u);
+                working = taken < teamPaths;
+                hasPath = working;
+                emitPath(path, vertex, outgoing, pathNumber(teamBegin + min(taken, teamPaths - 1u)));
+                connects = true;
+                leaves = !path.ended;
+                purpose = kDimensionEmission;
             }
-            ray = nextRay(path, connection, taken < teamPaths, sums);
+            if (connects) connect(connection, path, outgoing);
+            if (leaves) beginSegment(path, vertex, purpose);
+            connection.pending = connection.pending && working;
+            path.ended = path.ended || !working;
+            ray = nextRay(path, connection, sums);
         }
     }
     results[dispatch.firstResult + gl_GlobalInvocationID.x] = laneResult(sums);
