@@ -37,7 +37,8 @@ void checkCommand(const CLI::App& app, int argc, char** argv) {
 int run(int argc, char** argv) {
     CLI::App app{
         "Duolux renders vector-valued light (invisible, visible) through matrix-valued reflectance:\n"
-        "local, global, shadowless and one-bounce illumination, and everything between, by one path tracer.",
+        "local, global, shadowless and one-bounce illumination, and everything between, by paths from the "
+        "camera or from the emitters.",
         "duolux"};
     app.set_version_flag("--version",
                          fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
