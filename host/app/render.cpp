@@ -165,8 +165,12 @@ void chooseRange(const RenderOptions& options, const Overrides& overrides,
     }
     // What has been taken stays.
     if (resumed) {
-        scene.render.spp =
-            std::max(scene.render.spp, resumed->origin.firstSample + samplesTaken(resumed->state.film));
+        const std::uint32_t there = resumed->origin.firstSample + samplesTaken(resumed->state.film);
+        if (there > scene.render.spp) {
+            warn(fmt::format("{} holds samples up to {} of every pixel; they are kept", options.resume,
+                             there));
+            scene.render.spp = there;
+        }
     }
 }
 
@@ -219,6 +223,7 @@ void runRender(const RenderOptions& options) {
     Device device(options.device);
     Progress progress(Progress::styleForStderr(options.quiet));
     control.onProgress = [&](const RenderProgress& p) {
+        if (p.samplesTotal == 0) return true;  // all has been resumed
         progress.update({static_cast<double>(p.samplesDone), static_cast<double>(p.samplesTotal), p.seconds,
                          options.timeLimit});
         return !interrupted();
@@ -314,7 +319,8 @@ void addRenderCommand(CLI::App& app) {
         ->check(wholeNumber(0, 0xffffffff));
     command
         ->add_option("--integrator", options->integrator,
-                     "Paths from the camera (path, the default), or from the emitters, each connected to the "
+                     "Paths from the camera (path: the default, if the scene does not choose), or from the "
+                     "emitters, each connected to the "
                      "camera wherever it scatters (light); then --spp is the number of light paths per pixel")
         ->type_name("NAME")
         ->check(CLI::IsMember({"path", "light"}));

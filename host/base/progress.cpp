@@ -34,7 +34,7 @@ int barWidthFor(std::FILE* out) {
 }  // namespace
 
 double progressFraction(const ProgressState& state) {
-    double fraction = state.total > 0.0 ? state.done / state.total : 1.0;
+    double fraction = state.total > 0.0 ? state.done / state.total : 0.0;
     if (state.timeLimit && *state.timeLimit > 0.0)
         fraction = std::max(fraction, state.seconds / *state.timeLimit);
     return std::clamp(fraction, 0.0, 1.0);
