@@ -58,7 +58,7 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
 std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, const Teams& teams,
                                        std::size_t bands, std::uint32_t bandPixels) {
     std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene, teams);
-    constants.push_back({shared::kSpecConnection, deviceScene.traits.cameraTransmittance});
+    constants.push_back({shared::kSpecCameraTransmittance, deviceScene.traits.cameraTransmittance});
     constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
     constants.push_back({shared::kSpecBandPixels, bandPixels});
     return constants;

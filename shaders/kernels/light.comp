@@ -24,7 +24,7 @@ layout(constant_id = 2) const uint kLeaveNodes = 3u;
 layout(constant_id = 10) const bool kSmoothNormals = true;
 layout(constant_id = 11) const uint kSampler = 0u;
 layout(constant_id = 14) const uint kTeamSize = 8u;
-layout(constant_id = 15) const uint kConnection = 2u;
+layout(constant_id = 15) const uint kCameraTransmittance = 2u;
 layout(constant_id = 16) const uint kFilmBands = 1u;
 layout(constant_id = 17) const uint kBandPixels = 1u;
 
@@ -45,6 +45,7 @@ layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 
 #include "shaders/lib/camera.glsl"
 #include "shaders/lib/film.glsl"
+#include "shaders/lib/light_path.glsl"
 #include "shaders/lib/lights.glsl"
 #include "shaders/lib/sampler.glsl"
 #include "shaders/lib/surface.glsl"
@@ -62,64 +63,6 @@ LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
 LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
 
 const float kInfinity = 1e30;
-
-// A particle under way: the segment it is on.
-struct LightPath {
-    uvec2 id;          // its number
-    Light flux;        // here on the segment, what the surfaces crossed have done included; W
-    float emitted;     // flux it began with, the unit of Russian roulette
-    vec3 origin;
-    vec3 direction;
-    float t;           // the last surface crossed on the segment, and where: the walk goes on after it
-    uint primitive;
-    uint scatterings;  // events before the segment
-    uint crossings;    // on the segment
-    bool ended;
-};
-
-// Where a particle may scatter. One vertex of a segment is kept, by weighted reservoir sampling.
-struct Vertex {
-    Light flux;       // O L, of the chosen vertex, with the adjoint's factor for shading normals
-    Bsdf bsdf;
-    SurfacePoint point;
-    vec3 wi;          // to where the particle came from
-    float weight;     // of the chosen vertex
-    float weightSum;  // of all vertices of the segment
-};
-
-// What leaves a point of a path for the camera, if that is on the side of the normal: radiance per path and unit of area,
-// the emitter's or what a surface scatters. (W sr^-1 in all, for a particle's flux is in W.)
-struct Outgoing {
-    vec3 origin;
-    vec3 normal;
-    Light radiance;
-    uint scatterings;  // events on the path
-};
-
-// A ray to the camera under way.
-struct Connection {
-    bool pending;
-    vec3 origin;
-    vec3 direction;
-    float distance;
-    float t;            // last surface crossed
-    uint primitive;
-    Light light;        // what would arrive if nothing more came in between
-    float roulette;     // a uniform number, and the part of all connections that are still under way
-    float survival;
-    uint pixel;
-    uint scatterings;   // events on the path, for the statistics
-};
-
-struct LaneSums {
-    uint nonFinite;
-    uint clamped;
-    uint lightRays;
-    uint bounceRays;
-    uint shadowRays;
-    uvec2 lastBounce;
-    uvec2 previousBounce;
-};
 
 // Component that surfaces may scatter or pass on, the largest channel: without second columns the visible one is lost on
 // all but the camera.
@@ -264,7 +207,7 @@ void beginSegment(inout LightPath path, Vertex vertex, uint purpose) {
 
 // The ray to the camera has met a surface, or nothing more.
 void meetConnection(inout Connection connection, inout LaneSums sums, Traversal ray, bool found, uint material) {
-    if (kConnection == kTransmittanceGeneral && found) {
+    if (kCameraTransmittance == kTransmittanceGeneral && found) {
         float before = rowWeighted(connection.light);
         Light through = lightApply(transparentOf(material), connection.light);
         // Roulette where what is displayed is lost, by the same number all along the ray.
@@ -277,7 +220,7 @@ void meetConnection(inout Connection connection, inout LaneSums sums, Traversal 
     }
     Light light = connection.light;
     // Surfaces that pass on the invisible component as it is, and nothing of the visible one.
-    if (found) light = Light(kConnection == kTransmittanceIdentity ? light.invisible : vec3(0.0), vec3(0.0));
+    if (found) light = Light(kCameraTransmittance == kTransmittanceIdentity ? light.invisible : vec3(0.0), vec3(0.0));
     light = lightScale(light, vec3(1.0 / connection.survival));
     if (maxComponent(light.invisible + light.visible) != 0.0) {
         splat(sums, light, connection.pixel, connection.scatterings);
@@ -338,17 +281,9 @@ Traversal nextRay(LightPath path, Connection connection, inout LaneSums sums) {
                                    toCamera ? connection.direction : path.direction,
                                    toCamera ? connection.t : path.t, toCamera ? connection.primitive : path.primitive,
                                    toCamera ? connection.distance : kInfinity,
-                                   toCamera && kConnection != kTransmittanceGeneral);
+                                   toCamera && kCameraTransmittance != kTransmittanceGeneral);
     ray.nodesLeft = toCamera || onPath;
     return ray;
-}
-
-LaneSums emptySums() { return LaneSums(0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u)); }
-
-LaneResult laneResult(LaneSums sums) {
-    return LaneResult(sums.nonFinite, sums.clamped, sums.lightRays, sums.bounceRays, sums.shadowRays,
-                      uint[2](sums.lastBounce.x, sums.lastBounce.y),
-                      uint[2](sums.previousBounce.x, sums.previousBounce.y));
 }
 
 void main() {

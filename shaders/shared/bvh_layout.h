@@ -1,9 +1,10 @@
 // Layout of the bounding volume hierarchy in device memory, shared by C++ and GLSL.
 //
-// Nodes: 8-wide, quantised, 80 bytes = 5 texels of 4 x uint32 (Ylitie, Karras, Laine, "Efficient Incoherent Ray
-// Traversal on GPUs Through Compressed Wide BVHs", HPG 2017). Child boxes are 8-bit offsets from the node's origin in
-// units of 2^e per axis. Children are in slots; the slot's bits say on which side of the node's centre the child
-// lies (bit 2: x, bit 1: y, bit 0: z), so that (slot XOR octant of the ray) orders them front to back.
+// Nodes: 8-wide, quantised, 80 bytes = 5 texels of 4 x uint32 (Ylitie, Karras, Laine, "Efficient Incoherent
+// Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017). Child boxes are 8-bit offsets from the
+// node's origin in units of 2^e per axis. Children are in slots; the slot's bits say on which side of the
+// node's centre the child lies (bit 2: x, bit 1: y, bit 0: z), so that (slot XOR octant of the ray) orders
+// them front to back.
 //
 // Triangles: 48 bytes = 3 texels: vertex k in xyz of texel k; in w: primitive, material with flags, unused.
 #ifndef DUOLUX_SHADERS_SHARED_BVH_LAYOUT_H
@@ -22,8 +23,9 @@ DUOLUX_CONST uint kMaxTreeDepth = 24u;
 // A leaf child holds 1 to 3 triangles.
 DUOLUX_CONST uint kMaxLeafTriangles = 3u;
 
-// Per-child meta byte: 0: empty. Inner node: 001 in the high bits, 24 + slot in the low five. Leaf: as many ones in the
-// high three bits (unary) as it has triangles, and in the low five the offset of the first from Node.triangleBase.
+// Per-child meta byte: 0: empty. Inner node: 001 in the high bits, 24 + slot in the low five. Leaf: as many
+// ones in the high three bits (unary) as it has triangles, and in the low five the offset of the first from
+// Node.triangleBase.
 DUOLUX_CONST uint kMetaInner = 0x20u;
 
 #ifdef __cplusplus
@@ -39,11 +41,12 @@ struct WideNode {
 };
 static_assert(sizeof(WideNode) == kNodeTexels * 16);
 static_assert(offsetof(WideNode, exponent) == 12 && offsetof(WideNode, childBase) == 16);
-static_assert(offsetof(WideNode, meta) == 24 && offsetof(WideNode, lower) == 32 && offsetof(WideNode, upper) == 56);
+static_assert(offsetof(WideNode, meta) == 24 && offsetof(WideNode, lower) == 32 &&
+              offsetof(WideNode, upper) == 56);
 
 struct DeviceTriangle {
     vec3 v0;
-    uint primitive;      // the same for every copy of a triangle; orders coincident hits
+    uint primitive;  // the same for every copy of a triangle; orders coincident hits
     vec3 v1;
     uint materialFlags;  // material index | flags
     vec3 v2;

@@ -1,5 +1,5 @@
-// Parameters, bindings and records of the path-tracing kernel, and in part of the light-tracing one, shared by C++ and GLSL
-// (scalar block layout).
+// Parameters, bindings and records of the path-tracing kernel, and in part of the light-tracing one, shared
+// by C++ and GLSL (scalar block layout).
 #ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 
@@ -8,45 +8,49 @@
 DUOLUX_BEGIN
 
 // Descriptor bindings, all in set 0.
-DUOLUX_CONST uint kBindingNodes = 0u;       // texels: WideNode
-DUOLUX_CONST uint kBindingTriangles = 1u;   // texels: DeviceTriangle
-DUOLUX_CONST uint kBindingNormals = 2u;     // texels: DeviceNormals
-DUOLUX_CONST uint kBindingMaterials = 3u;   // texels: DeviceMaterial
-DUOLUX_CONST uint kBindingLights = 4u;      // texels: DeviceLight
-DUOLUX_CONST uint kBindingParams = 5u;      // uniform: PathParams
-DUOLUX_CONST uint kBindingPixels = 6u;      // texels: the pixel indices of four slots each
-DUOLUX_CONST uint kBindingResults = 7u;     // storage: SlotResult
-DUOLUX_CONST uint kBindingTeams = 8u;       // storage: TeamProgress, all zero before a dispatch
+DUOLUX_CONST uint kBindingNodes = 0u;      // texels: WideNode
+DUOLUX_CONST uint kBindingTriangles = 1u;  // texels: DeviceTriangle
+DUOLUX_CONST uint kBindingNormals = 2u;    // texels: DeviceNormals
+DUOLUX_CONST uint kBindingMaterials = 3u;  // texels: DeviceMaterial
+DUOLUX_CONST uint kBindingLights = 4u;     // texels: DeviceLight
+DUOLUX_CONST uint kBindingParams = 5u;     // uniform: PathParams
+DUOLUX_CONST uint kBindingPixels = 6u;     // texels: the pixel indices of four slots each
+DUOLUX_CONST uint kBindingResults = 7u;    // storage: SlotResult
+DUOLUX_CONST uint kBindingTeams = 8u;      // storage: TeamProgress, all zero before a dispatch
 
 // Specialisation constants.
 DUOLUX_CONST uint kSpecWorkgroupSize = 0u;
-DUOLUX_CONST uint kSpecLeaveTraversal = 1u;   // leave the traversal when fewer lanes of a subgroup are alive
-DUOLUX_CONST uint kSpecLeaveNodes = 2u;       // leave the node loop when fewer lanes want nodes
-DUOLUX_CONST uint kSpecTransmittance = 3u;    // one of the kTransmittance... below
-DUOLUX_CONST uint kSpecSecondColumn = 4u;     // some O or T has an entry m01 or m11: visible light scatters or passes on
-DUOLUX_CONST uint kSpecInvisibleScatters = 5u;  // some O has m00 or m01: importance for invisible light scatters on
-DUOLUX_CONST uint kSpecVisibleScatters = 6u;    // some O has m10 or m11
-DUOLUX_CONST uint kSpecInvisibleCrosses = 7u;   // some T has m00 or m01
-DUOLUX_CONST uint kSpecVisibleCrosses = 8u;     // some T has m10 or m11
-DUOLUX_CONST uint kSpecOneReflectance = 9u;     // all materials share PathParams.opaque and .transparent
+DUOLUX_CONST uint kSpecLeaveTraversal = 1u;  // leave the traversal when fewer lanes of a subgroup are alive
+DUOLUX_CONST uint kSpecLeaveNodes = 2u;      // leave the node loop when fewer lanes want nodes
+DUOLUX_CONST uint kSpecTransmittance = 3u;   // one of the kTransmittance... below
+DUOLUX_CONST uint kSpecSecondColumn =
+    4u;  // some O or T has an entry m01 or m11: visible light scatters or passes on
+DUOLUX_CONST uint kSpecInvisibleScatters =
+    5u;  // some O has m00 or m01: importance for invisible light scatters on
+DUOLUX_CONST uint kSpecVisibleScatters = 6u;   // some O has m10 or m11
+DUOLUX_CONST uint kSpecInvisibleCrosses = 7u;  // some T has m00 or m01
+DUOLUX_CONST uint kSpecVisibleCrosses = 8u;    // some T has m10 or m11
+DUOLUX_CONST uint kSpecOneReflectance = 9u;    // all materials share PathParams.opaque and .transparent
 DUOLUX_CONST uint kSpecSmoothNormals = 10u;
-DUOLUX_CONST uint kSpecSampler = 11u;           // one of the kSampler... below
-DUOLUX_CONST uint kSpecDirectLight = 12u;       // one of the kDirectLight... below
-DUOLUX_CONST uint kSpecHasEmitters = 13u;       // something emits
-DUOLUX_CONST uint kSpecTeamSize = 14u;          // lanes that share a range of slots; divides the workgroup's size
+DUOLUX_CONST uint kSpecSampler = 11u;      // one of the kSampler... below
+DUOLUX_CONST uint kSpecDirectLight = 12u;  // one of the kDirectLight... below
+DUOLUX_CONST uint kSpecHasEmitters = 13u;  // something emits
+DUOLUX_CONST uint kSpecTeamSize = 14u;     // lanes that share a range of slots; divides the workgroup's size
 
-DUOLUX_CONST uint kSamplerSobol = 0u;       // Owen-scrambled Sobol points
+DUOLUX_CONST uint kSamplerSobol = 0u;  // Owen-scrambled Sobol points
 DUOLUX_CONST uint kSamplerIndependent = 1u;
 
 // How light from emitters to a vertex is found.
-DUOLUX_CONST uint kDirectLightNone = 0u;        // there is no emitter
-DUOLUX_CONST uint kDirectLightSampled = 1u;     // by next-event estimation and multiple importance sampling
-DUOLUX_CONST uint kDirectLightClosedForm = 2u;  // Lambert's formula for each emitter; where nothing can be in between
+DUOLUX_CONST uint kDirectLightNone = 0u;     // there is no emitter
+DUOLUX_CONST uint kDirectLightSampled = 1u;  // by next-event estimation and multiple importance sampling
+DUOLUX_CONST uint kDirectLightClosedForm =
+    2u;  // Lambert's formula for each emitter; where nothing can be in between
 
 // What a segment between two points does to light, scene-wide.
-DUOLUX_CONST uint kTransmittanceZero = 0u;      // every T is 0: any surface hides what is behind it
-DUOLUX_CONST uint kTransmittanceIdentity = 1u;  // every T passes the components that carry importance unchanged
-DUOLUX_CONST uint kTransmittanceGeneral = 2u;   // a product of 2x2 matrices, in order
+DUOLUX_CONST uint kTransmittanceZero = 0u;  // every T is 0: any surface hides what is behind it
+DUOLUX_CONST uint kTransmittanceIdentity =
+    1u;  // every T passes the components that carry importance unchanged
+DUOLUX_CONST uint kTransmittanceGeneral = 2u;  // a product of 2x2 matrices, in order
 
 // LightMatrix: F_ij per channel, acting from component j on component i; 0 = invisible, 1 = visible.
 struct DeviceLightMatrix {
@@ -61,20 +65,21 @@ struct PathParams {
     uint width;
     vec3 cameraForward;  // unit
     uint height;
-    vec3 cameraRight;    // half the width of the image plane at distance 1
+    vec3 cameraRight;  // half the width of the image plane at distance 1
     uint seed;
-    vec3 cameraUp;       // half its height
-    uint bounces;        // largest number of scattering events on a path
+    vec3 cameraUp;  // half its height
+    uint bounces;   // largest number of scattering events on a path
     DeviceLightMatrix opaque;
     DeviceLightMatrix transparent;
-    vec2 rowWeight;      // how much the components (invisible, visible) of a pixel count when work is distributed; sum 1
-    vec2 display;        // the row d of eq. 8
+    vec2 rowWeight;  // how much the components (invisible, visible) of a pixel count when work is
+                     // distributed; sum 1
+    vec2 display;    // the row d of eq. 8
     float inverseQuantum;
     uint lightCount;
-    uint emitterRoot;    // node index of the root of the tree over emitters
-    vec3 emitterLower;   // their bounds, widened a little
+    uint emitterRoot;   // node index of the root of the tree over emitters
+    vec3 emitterLower;  // their bounds, widened a little
     vec3 emitterUpper;
-    float imageArea;     // of the image plane at distance 1
+    float imageArea;  // of the image plane at distance 1
 };
 
 struct DispatchParams {
@@ -82,13 +87,13 @@ struct DispatchParams {
     uint slotCount;
     uint firstSample;
     uint sampleCount;
-    uint teamSlots;      // slots that each team of lanes takes, one after the other
-    uint firstResult;    // where in the results the first slot's goes
-    uint firstTeam;      // where the progress of the first team is kept
+    uint teamSlots;    // slots that each team of lanes takes, one after the other
+    uint firstResult;  // where in the results the first slot's goes
+    uint firstTeam;    // where the progress of the first team is kept
 };
 
-// Slots that the lanes of a team have begun and finished. Finished are fewer than asked for if the driver cut the
-// kernel's loops short.
+// Slots that the lanes of a team have begun and finished. Finished are fewer than asked for if the driver cut
+// the kernel's loops short.
 struct TeamProgress {
     uint taken;
     uint finished;
@@ -98,22 +103,22 @@ struct TeamProgress {
 struct SlotResult {
     uint invisible[6];
     uint visible[6];
-    uint nonFinite;       // samples dropped because they were not finite
-    uint clamped;         // samples brighter than the film can hold
+    uint nonFinite;  // samples dropped because they were not finite
+    uint clamped;    // samples brighter than the film can hold
     uint cameraRays;
     uint bounceRays;
     uint shadowRays;
     uint emitterRays;
-    float lastBounce;     // displayed radiance (mean of channels) with PathParams.bounces scattering events
-    float previousBounce; // with one fewer
+    float lastBounce;      // displayed radiance (mean of channels) with PathParams.bounces scattering events
+    float previousBounce;  // with one fewer
 };
 
 // Records fetched as texels of 4 x uint32.
-DUOLUX_CONST uint kNormalTexels = 1u;    // three octahedral 2 x snorm16 unit vectors, one per vertex
+DUOLUX_CONST uint kNormalTexels = 1u;  // three octahedral 2 x snorm16 unit vectors, one per vertex
 DUOLUX_CONST uint kMaterialTexels = 11u;
 DUOLUX_CONST uint kLightTexels = 4u;
 
-DUOLUX_CONST uint kMaterialTwoSided = 1u;          // f_opaque acts on both sides
+DUOLUX_CONST uint kMaterialTwoSided = 1u;  // f_opaque acts on both sides
 DUOLUX_CONST uint kMaterialEmitsFront = 2u;
 DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 
@@ -126,10 +131,11 @@ struct DeviceMaterial {
     vec3 diffuse;
     uint flags;
     vec3 invisibleEmission;
-    float lightPdfArea;  // density per unit area with which next-event estimation picks a point of this emitter, m^-2
+    float lightPdfArea;  // density per unit area with which next-event estimation picks a point of this
+                         // emitter, m^-2
     vec3 visibleEmission;
     float padding;
-    vec4 opaque[4];       // m00 m01 m10 m11 in xyz
+    vec4 opaque[4];  // m00 m01 m10 m11 in xyz
     vec4 transparent[4];
 };
 static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16);
@@ -148,8 +154,8 @@ struct DeviceLight {
     float positionError;  // bound on the rounding error of a point on the triangle, as for hits
     vec3 v2;
     uint unused;
-    float threshold;      // keep this light with this probability,
-    uint alias;           // else take that one
+    float threshold;  // keep this light with this probability,
+    uint alias;       // else take that one
     uint padding[2];
 };
 static_assert(sizeof(DeviceLight) == kLightTexels * 16);
