@@ -1,10 +1,10 @@
-// Shooting: paths from the emitters, particles that carry a column L of flux per colour channel. At a surface O f_opaque L
-// is connected to the camera and may go on in a new direction, T L goes straight on: the adjoint of path.comp, with the
-// matrices multiplied from the left, in the order met.
+// Shooting: paths from the emitters, particles that carry a column L of flux per colour channel. At a surface O
+// f_opaque L is connected to the camera and may go on in a new direction, T L goes straight on: the adjoint of
+// path.comp, with the matrices multiplied from the left, in the order met.
 //
-// Scheduling is path.comp's: a team of lanes takes the paths of a range one after the other, and rays along the path and
-// rays to the camera share one traversal. All surfaces along a ray are met in order: at each, the particle is connected to
-// the camera, and one of them is chosen, in proportion to the flux that it would scatter, to go on from.
+// Scheduling is path.comp's: a team of lanes takes the paths of a range one after the other, and rays along the path
+// and rays to the camera share one traversal. All surfaces along a ray are met in order: at each, the particle is
+// connected to the camera, and one of them is chosen, in proportion to the flux that it would scatter, to go on from.
 //
 // What arrives at the camera is added to the film with atomics, in integers: in any order the sums are the same.
 #version 460
@@ -64,8 +64,8 @@ LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
 
 const float kInfinity = 1e30;
 
-// Component that surfaces may scatter or pass on, the largest channel: without second columns the visible one is lost on
-// all but the camera.
+// Component that surfaces may scatter or pass on, the largest channel: without second columns the visible one is lost
+// on all but the camera.
 float carried(Light l) { return maxComponent(l.invisible + (kSecondColumn ? l.visible : vec3(0.0))); }
 
 // How much light counts in a pixel.
@@ -102,9 +102,9 @@ void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
         if (kFilmBands == 1u || pixel / kBandPixels == band) {
             uint beyond = 0u;
             for (uint i = 0u; i < kFilmSums; i++) beyond |= filmAtomicAdd(band, index + i, quanta[i]) ? 1u << i : 0u;
-            // A sum beyond the range stays there, but must not get as far as 2^64, where it would begin again: what finds it
-            // there takes away what it has added. So a sum ends up beyond the range if and only if the exact one does, in
-            // whatever order; the host knows it by its sign.
+            // A sum beyond the range stays there, but must not get as far as 2^64, where it would begin again: what
+            // finds it there takes away what it has added. So a sum ends up beyond the range if and only if the exact
+            // one does, in whatever order; the host knows it by its sign.
             while (beyond != 0u) {
                 uint i = uint(findLSB(beyond));
                 beyond &= beyond - 1u;
@@ -124,11 +124,14 @@ void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
 void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     CameraConnection camera = connectToCamera(params, outgoing.origin);
     float cosine = max(dot(outgoing.normal, camera.direction), 0.0);
-    Light arriving = lightScale(outgoing.radiance, vec3(cosine * camera.importance / (camera.distance * camera.distance)));
+    float factor = cosine * camera.importance / (camera.distance * camera.distance);
+    Light arriving = lightScale(outgoing.radiance, vec3(factor));
     // Light that counts less than its brightness, by components that are not displayed, is connected less often.
     float brightness = maxComponent(max(arriving.invisible, arriving.visible));
-    float survival = connectionSurvival(rowWeighted(arriving), max(params.rowWeight.x, params.rowWeight.y) * brightness);
-    // So is what a surface sends in a flat direction, which is dim by the cosine: a sixth of the rays for 6 to 8 % of variance.
+    float worth = max(params.rowWeight.x, params.rowWeight.y) * brightness;
+    float survival = connectionSurvival(rowWeighted(arriving), worth);
+    // So is what a surface sends in a flat direction, which is dim by the cosine: a sixth of the rays for 6 to 8 % of
+    // variance.
     survival *= outgoing.scatterings > 0u ? min(3.0 * cosine, 1.0) : 1.0;
     uint dimension = sampleDimension(outgoing.scatterings, path.crossings, kDimensionCamera);
     float roulette = sampleChoice(path.id.y, path.id.x, dimension, params.seed).x;
@@ -178,8 +181,8 @@ bool endSegment(LightPath path, inout Vertex vertex) {
     vertex.weightSum = 0.0;
     if (!kInvisibleScatters && !kSecondColumn) return false;
     if (!(weightSum > 0.0) || path.scatterings + 1u >= params.bounces) return false;
-    // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted. Where that
-    // grows (crossing surfaces that also scatter) every particle survives and carries the growth.
+    // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted. Where
+    // that grows (crossing surfaces that also scatter) every particle survives and carries the growth.
     float relative = weightSum / path.emitted;
     float survival = path.scatterings >= 2u && relative < 1.0 ? min(relative, 0.95) : 1.0;
     uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
@@ -228,8 +231,8 @@ void meetConnection(inout Connection connection, inout LaneSums sums, Traversal 
     connection.pending = false;
 }
 
-// The particle has met a surface: light for the camera, a candidate for scattering, and the crossing. Whether the segment
-// goes on.
+// The particle has met a surface: light for the camera, a candidate for scattering, and the crossing. Whether the
+// segment goes on.
 bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoing, Traversal ray, Triangle tri) {
     uint materialIndex = tri.materialFlags & kMaterialMask;
     Material material = fetchMaterial(materialIndex);

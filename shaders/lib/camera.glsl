@@ -18,8 +18,8 @@ struct CameraConnection {
     uint pixel;
     vec3 direction;    // unit, from the point to the camera
     float distance;
-    // Radiance that arrives at the camera per unit of solid angle, as a part of the image's mean: the importance W_e of the
-    // pixel (box filter, per unit of image area) divided by the number of pixels. Steradian^-1.
+    // Radiance that arrives at the camera per unit of solid angle, as a part of the image's mean: the importance W_e of
+    // the pixel (box filter, per unit of image area) divided by the number of pixels. Steradian^-1.
     float importance;
 };
 

@@ -31,8 +31,8 @@ struct Vertex {
     float weightSum;  // of all vertices of the segment
 };
 
-// What leaves a point of a path for the camera, if that is on the side of the normal: radiance per path and unit of area,
-// the emitter's or what a surface scatters. (W sr^-1 in all, for a particle's flux is in W.)
+// What leaves a point of a path for the camera, if that is on the side of the normal: radiance per path and unit of
+// area, the emitter's or what a surface scatters. (W sr^-1 in all, for a particle's flux is in W.)
 struct Outgoing {
     vec3 origin;
     vec3 normal;

@@ -6,8 +6,8 @@
 #include "shaders/lib/sobol.glsl"
 #include "shaders/shared/path_layout.h"
 
-// What a pair of numbers is for; with the vertex it makes the dimension. A light path has other uses for two of them: the
-// direction from its emitter, and connections to the camera. Of the latter's dimension at the emitter the pair of
+// What a pair of numbers is for; with the vertex it makes the dimension. A light path has other uses for two of them:
+// the direction from its emitter, and connections to the camera. Of the latter's dimension at the emitter the pair of
 // sampleWords is the point on it, the two numbers of sampleChoice are the connection's and the side.
 const uint kDimensionPixel = 0u;
 const uint kDimensionEmission = 0u;

@@ -13,7 +13,8 @@ struct SurfacePoint {
 };
 
 // `normal`: unit, of the triangle's front; `triangle`: its index among the device's.
-SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 normal, vec3 rayDirection, bool smoothNormals) {
+SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 normal, vec3 rayDirection,
+                          bool smoothNormals) {
     float cosine = dot(normal, rayDirection);
     SurfacePoint point;
     point.geometricNormal = cosine < 0.0 ? normal : -normal;
@@ -26,10 +27,10 @@ SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 no
     return point;
 }
 
-// What gathering does at a point with a shading normal is |wi . Ns| in place of |wi . Ng|, wi towards the light. The adjoint
-// of that is not the same with the roles of the directions exchanged: a particle that comes in from wi is scattered by
-// f |wi . Ns| / |wi . Ng|, then by the cosine to the geometric normal (Veach, "Robust Monte Carlo Methods for Light
-// Transport Simulation", 1997, section 5.3). Zero where the two normals see wi on different sides.
+// What gathering does at a point with a shading normal is |wi . Ns| in place of |wi . Ng|, wi towards the light. The
+// adjoint of that is not the same with the roles of the directions exchanged: a particle that comes in from wi is
+// scattered by f |wi . Ns| / |wi . Ng|, then by the cosine to the geometric normal (Veach, "Robust Monte Carlo Methods
+// for Light Transport Simulation", 1997, section 5.3). Zero where the two normals see wi on different sides.
 float shadingAdjoint(SurfacePoint point, vec3 wi) {
     float cosShading = dot(point.shadingNormal, wi);
     float cosGeometric = dot(point.geometricNormal, wi);

@@ -162,6 +162,25 @@ TEST_P(Pair, GatheringAndShootingAgree) {
 INSTANTIATE_TEST_SUITE_P(All, Pair, testing::ValuesIn(pairCases()),
                          [](const auto& test) { return test.param.name; });
 
+/// Light of which both components arrive alike must be connected whatever the display shows of them: roulette
+/// is for what is not displayed, and would only add noise. The rays of the same paths tell.
+TEST(LightPaths, WhatIsDisplayedIsAlwaysConnected) {
+    Scene scene = byLight(emptyCornellBox());
+    scene.reflectance = preset("global");
+    scene.render.spp = 64;
+    const auto raysToCamera = [&](glm::vec2 display) {
+        scene.display = display;
+        return render(device(), scene).statistics.shadowRays;
+    };
+    const std::uint64_t visible = raysToCamera({0, 1});
+    EXPECT_EQ(raysToCamera({1, 0}), visible);
+    EXPECT_EQ(raysToCamera({1, 1}), visible);
+    // An emitter that only shows on the component that is not displayed is connected seldom.
+    for (Material& material : scene.materials)
+        material.emission.visible = glm::vec3(0.0f);
+    EXPECT_LT(raysToCamera({0, 1}), visible);
+}
+
 /// A camera so near to a lit floor that single contributions are beyond what the film holds.
 TEST(LightPaths, BrighterThanTheFilmIsClampedAndTold) {
     SceneBuilder builder;
