@@ -9,7 +9,7 @@ namespace duolux {
 
 /// What a film depends on: films with the same of all but the range of samples can be added.
 struct FilmOrigin {
-    std::string sceneFile;  ///< for messages alone
+    std::string sceneFile;  ///< noted for people; what counts is the hash
     std::string sceneHash;
     std::string reflectance;  ///< described; the hash covers it
     RenderSettings settings;

@@ -26,6 +26,14 @@ class Resume : public testing::TestWithParam<Integrator> {
         result.render.integrator = GetParam();
         return result;
     }
+    /// So many surfaces on a ray that some drivers cut dispatches short.
+    static Scene manyPanes() {
+        Scene result = stackedPanesCase(100).scene;
+        result.render.integrator = GetParam();
+        result.render.width = result.render.height = 24;
+        result.render.spp = 9;
+        return result;
+    }
     /// Small dispatches, so that there are many states.
     static RenderControl inParts() {
         RenderControl control;
@@ -74,10 +82,7 @@ TEST_P(Resume, WithMoreSamplesGivesTheBitsOfThese) {
 
 TEST_P(Resume, StoppedAnywhereLosesNothing) {
     // What the driver cuts short is being traced again when the render is stopped.
-    Scene panes = stackedPanesCase(100).scene;
-    panes.render.integrator = GetParam();
-    panes.render.width = panes.render.height = 24;
-    panes.render.spp = 9;
+    const Scene panes = manyPanes();
     const Film whole = render(device(), panes, {}).film;
     for (int after = 1; after < 6; ++after) {
         int calls = 0;
@@ -93,10 +98,7 @@ TEST_P(Resume, StoppedAnywhereLosesNothing) {
 }
 
 TEST_P(Resume, KeepsNoGapsWhereTheDriverCutsShort) {
-    Scene panes = stackedPanesCase(100).scene;
-    panes.render.integrator = GetParam();
-    panes.render.width = panes.render.height = 24;
-    panes.render.spp = 9;
+    const Scene panes = manyPanes();
     const Film whole = render(device(), panes, {}).film;
     std::vector<RenderState> states;
     RenderControl keeping;
