@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/run_duolux.h"
 
 // Renders in parts, as a user runs them, have the same bytes as one in one go.
 

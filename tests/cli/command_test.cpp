@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/cli/run_program.h"
+#include "tests/cli/run_duolux.h"
 
 namespace duolux::test {
 namespace {

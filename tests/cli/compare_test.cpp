@@ -6,7 +6,7 @@
 
 #include "host/film/image.h"
 #include "host/film/srgb.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/run_duolux.h"
 
 namespace duolux::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/cli/malformed_cases.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/run_duolux.h"
 
 namespace duolux::test {
 namespace {

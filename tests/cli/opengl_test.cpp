@@ -8,7 +8,7 @@
 
 #include "host/compare/compare.h"
 #include "host/film/image.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/run_duolux.h"
 
 namespace duolux::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/film/image.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/run_duolux.h"
 
 namespace duolux::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/cli/run_program.h"
+#include "tests/support/run_program.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -10,26 +10,29 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/temporary_folder.h"
+
 namespace duolux::test {
 
 ProgramResult runProgram(const std::string& program, const std::filesystem::path& folder,
-                         std::vector<std::string> arguments, std::optional<ProgramSignal> signal) {
+                         std::vector<std::string> arguments, std::optional<ProgramSignal> signal,
+                         std::chrono::seconds limit) {
     const TemporaryFolder streams;
     const std::string out = streams.path() / "out";
     const std::string err = streams.path() / "err";
     arguments.insert(arguments.begin(), program);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
+    argv.push_back(nullptr);
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork");
     if (child == 0) {
-        std::vector<char*> argv;
-        for (std::string& argument : arguments)
-            argv.push_back(argument.data());
-        argv.push_back(nullptr);
         if (chdir(folder.c_str()) != 0) _exit(125);
         dup2(open("/dev/null", O_RDONLY), 0);
         dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), 1);
         dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), 2);
-        alarm(120);  // a program that hangs fails its test
+        alarm(static_cast<unsigned>(limit.count()));  // a program that hangs fails its test
         execv(argv[0], argv.data());
         _exit(126);
     }
@@ -41,11 +44,6 @@ ProgramResult runProgram(const std::string& program, const std::filesystem::path
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentsOf(out),
             contentsOf(err)};
-}
-
-ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
-                        std::optional<ProgramSignal> signal) {
-    return runProgram(DUOLUX_EXECUTABLE, folder, std::move(arguments), signal);
 }
 
 std::string contentsOf(const std::filesystem::path& file) {

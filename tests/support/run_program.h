@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/temporary_folder.h"
-
 namespace duolux::test {
 
 struct ProgramResult {
@@ -20,15 +18,14 @@ struct ProgramSignal {
     std::chrono::milliseconds after;  ///< since the start
 };
 
-/// Runs a program with arguments in `folder`, and waits for it; sends it a signal on the way if asked to.
+/// Runs a program (a path) with arguments in `folder`, and waits for it; sends it a signal on the way if
+/// asked to. One that takes more than `limit` is ended by SIGALRM.
 ProgramResult runProgram(const std::string& program, const std::filesystem::path& folder,
                          std::vector<std::string> arguments,
-                         std::optional<ProgramSignal> signal = std::nullopt);
+                         std::optional<ProgramSignal> signal = std::nullopt,
+                         std::chrono::seconds limit = std::chrono::seconds(120));
 
-/// Runs duolux with arguments in `folder`, and waits for it; sends it a signal on the way if asked to.
-ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
-                        std::optional<ProgramSignal> signal = std::nullopt);
-
+/// The whole file; empty if it cannot be read.
 std::string contentsOf(const std::filesystem::path& file);
 
 }  // namespace duolux::test

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace duolux::test {
+
+/// Runs duolux with arguments in `folder`, and waits for it; sends it a signal on the way if asked to.
+inline ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                               std::optional<ProgramSignal> signal = std::nullopt) {
+    return runProgram(DUOLUX_EXECUTABLE, folder, std::move(arguments), signal);
+}
+
+}  // namespace duolux::test

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace duolux::test {
+
+/// Where `#include "NAME"` is looked for, in this order: NAME is relative to these folders. The last is the
+/// project's root; what stands before it takes the place of files of the same name.
+std::vector<std::filesystem::path>& sourceRoots();
+
+/// The text of a file that is named like an included one. Throws std::runtime_error if no root has it.
+std::string readSource(std::string_view name);
+
+/// GLSL that does not compile. what() is the compiler's report by lines, "ERROR: FILE:LINE: ...".
+class CompileError : public std::runtime_error {
+  public:
+    explicit CompileError(const std::string& report) : std::runtime_error(report) {}
+    /// Line of the first error in `file`; 0 if none is there.
+    std::size_t lineIn(std::string_view file) const;
+};
+
+/// Compiles a compute kernel for Vulkan 1.2, with the compiler that builds the program. Throws CompileError.
+/// May be called from several threads.
+std::vector<std::uint32_t> compileKernel(std::string_view glsl);
+
+/// First lines of every kernel: the version and the extensions that the harness needs.
+std::string_view kernelHeader();
+
+}  // namespace duolux::test

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace duolux::test {
+
+/// A test file: GLSL with TEST(name) { ... } blocks, see prelude.glsl.
+struct GlslFile {
+    /// One EXPECT_... of the file, which may span lines.
+    struct Site {
+        std::size_t firstLine, lastLine;
+        std::string text;
+    };
+    struct Test {
+        std::string name;
+        std::size_t line, lastLine;
+        std::uint32_t count;  ///< invocations
+    };
+
+    std::string name;  ///< relative to a root of the source tree, as in #include
+    std::size_t lines = 0;
+    std::vector<Test> tests;
+    std::vector<Site> sites;
+
+    /// The expectation that a line belongs to, or nullptr.
+    const Site* siteAt(std::size_t line) const;
+};
+
+/// Finds the tests and the expectations of a file. Throws std::runtime_error, naming file and line, where the
+/// text cannot be understood: no test, a bracket left open, two expectations on a line.
+GlslFile parseGlslFile(std::string_view name, std::string_view text);
+
+/// The kernel of all its tests, chosen by the specialisation constant kSpecTest.
+std::string kernelOf(const GlslFile& file);
+
+}  // namespace duolux::test

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/shader/harness/glsl_file.h"
+#include "tests/shader/harness/glsl_report.h"
+
+namespace duolux::test {
+
+/// Runs one test of a file on device() and returns what failed; line 0: no line of this file. Throws
+/// MachineError if the device fails.
+std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t test);
+
+/// Makes every test of every *_test.glsl in a folder of the project a GoogleTest of the suite NameGlsl, where
+/// NAME_test.glsl is the file. A file that cannot be understood becomes a test that fails.
+void registerGlslTests(const std::filesystem::path& folder);
+
+/// "light_matrix" -> "LightMatrix".
+std::string pascalCase(std::string_view snake);
+
+}  // namespace duolux::test

@@ -1,0 +1,64 @@
+// What a GLSL test writes about its expectations, shared by C++ and GLSL (scalar block layout).
+#ifndef DUOLUX_TESTS_SHADER_HARNESS_REPORT_LAYOUT_H
+#define DUOLUX_TESTS_SHADER_HARNESS_REPORT_LAYOUT_H
+
+#include "shaders/shared/types.h"
+
+DUOLUX_BEGIN
+
+DUOLUX_CONST uint kTestWorkgroup = 64u;
+DUOLUX_CONST uint kBindingExpectations = 0u;  // storage: Expectation, one a line of the test file
+DUOLUX_CONST uint kBindingInvocations = 1u;   // storage: a bit for each invocation that failed
+DUOLUX_CONST uint kSpecTest = 1000u;          // index of the test within its file
+
+// How far failures are off, as a multiple of what is allowed (of 1 where nothing is): 1 to 2 times, 2 to 4
+// times, and so on; the last but one is open, the last counts those that are not a number.
+DUOLUX_CONST uint kCensusBins = 20u;
+DUOLUX_CONST uint kCensusOpen = 18u;
+DUOLUX_CONST uint kCensusNaN = 19u;
+
+DUOLUX_CONST uint kValueBool = 0u;
+DUOLUX_CONST uint kValueInt = 1u;
+DUOLUX_CONST uint kValueUint = 2u;
+DUOLUX_CONST uint kValueFloat = 3u;
+
+// Runs of the same test: the first counts, the others note the values of the invocations that it found.
+DUOLUX_CONST uint kPassCount = 0u;
+DUOLUX_CONST uint kPassFirst = 1u;
+DUOLUX_CONST uint kPassWorst = 2u;
+
+// The values that one invocation saw.
+struct Evidence {
+    uint actual[4];
+    uint expected[4];
+    uint type;        // kValue...
+    uint components;  // 0: nothing was noted
+    float difference;
+    float allowed;
+};
+
+struct Expectation {
+    uint evaluated;
+    uint failed;
+    uint first;    // complement of the first invocation that failed; 0: none did
+    uint worst;    // bits of the largest difference, which is not negative
+    uint worstAt;  // complement of the first invocation with that difference
+    uint census[20];
+    Evidence firstSeen;
+    Evidence worstSeen;
+};
+
+struct TestDispatch {
+    uint firstInvocation;
+    uint count;  // all invocations of the test
+    uint seed;   // of the random inputs
+    uint pass;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Evidence) == 48 && sizeof(Expectation) == 25 * 4 + 2 * 48);
+static_assert(sizeof(Expectation::census) == kCensusBins * sizeof(uint));
+#endif
+
+DUOLUX_END
+#endif

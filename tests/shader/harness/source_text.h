@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace duolux::test {
+
+/// GLSL with every character of a comment replaced by a space, so that offsets and lines stay what they are.
+std::string blankComments(std::string_view glsl);
+
+/// Offset of the bracket that closes the one at `open`, one of ( [ {; npos if there is none. Comments must
+/// have been blanked.
+std::size_t closingBracket(std::string_view glsl, std::size_t open);
+
+/// Line of an offset, from 1.
+std::size_t lineAt(std::string_view text, std::size_t offset);
+
+/// Runs of white space as one space each, none at the ends.
+std::string collapseSpaces(std::string_view text);
+
+/// Whether a character can be a part of an identifier or a number.
+bool isWordCharacter(char c);
+
+}  // namespace duolux::test

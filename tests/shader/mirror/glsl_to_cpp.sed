@@ -1,0 +1,28 @@
+# Turns a file of the shader library into C++ (sed -E): what the two languages write in different ways, line by line. The
+# result is included into a namespace that has vocabulary.inc, with `real` for float. See mirror.h.
+
+s@ *//.*@@
+# Each file once, in an order that mirror.h knows; what is for C++ alone is left out.
+/^#ifdef __cplusplus/,/^#endif/d
+/^#(include|extension|ifndef|define|endif)\b/d
+/^DUOLUX_(BEGIN|END)$/d
+
+# Numbers and scalars: all arithmetic is that of `real`.
+s/\b(([0-9]+\.[0-9]*|[0-9]*\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+)f?\b/real(\1)/g
+s/\bfloat\b/real/g
+s/\bprecise //g
+
+# Parameters by reference, swizzles, arrays as values.
+s/\b(in)?out (\w+) (\w+)/\2\& \3/g
+s/\.([xyzw]{2,4})\b/->*swizzle::\1/g
+s/\buint\[([0-9]+)\]/Array<\1>/g
+s/\buint (\w+)\[([0-9]+)\];/Array<\2> \1;/g
+
+# Constants of kernels become variables that tests may set.
+s/^layout\(constant_id = [0-9]+\) const (.*)/inline \1/
+s/^DUOLUX_CONST/inline constexpr/
+s/^const /inline const /
+
+# Functions and globals may be seen by many files.
+s/^(\w+(<[0-9]+>)? \w+\()/inline \1/
+s/^(uint \w+\[)/inline \1/

@@ -1,0 +1,58 @@
+#pragma once
+
+// The shader library as C++ through GLM, from the same source: duolux::mirror::single has its functions in
+// float, duolux::mirror::twice in double. The first says whether a device computes what C++ does, the second
+// how large the rounding errors of the library are. Neither says that it is right.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/integer.hpp>
+#include <span>
+#include <vector>
+
+namespace duolux::mirror {
+
+/// v->*swizzle::zw is v.zw.
+namespace swizzle {
+template <int... Components>
+struct Swizzle {};
+inline constexpr Swizzle<0, 1> xy;
+inline constexpr Swizzle<2, 3> zw;
+inline constexpr Swizzle<0, 1, 2> xyz;
+inline constexpr Swizzle<1, 2, 3> yzw;
+
+template <glm::length_t N, typename T, int... Components>
+glm::vec<sizeof...(Components), T> operator->*(const glm::vec<N, T>& v, Swizzle<Components...>) {
+    return glm::vec<sizeof...(Components), T>(v[Components]...);
+}
+}  // namespace swizzle
+
+/// What the kernels' texel buffers hold; the functions that fetch from them are the library's only way to a
+/// scene.
+struct Texels {
+    std::vector<glm::uvec4> nodes, triangles, normals, materials, lights;
+};
+inline Texels& texels() {
+    static Texels instance;
+    return instance;
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // BSDFs have parameters that others need
+
+namespace single {
+using real = float;
+#include "tests/shader/mirror/library.inc"
+}  // namespace single
+
+namespace twice {
+using real = double;
+#include "tests/shader/mirror/library.inc"
+}  // namespace twice
+
+#pragma GCC diagnostic pop
+
+}  // namespace duolux::mirror
