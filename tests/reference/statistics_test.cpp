@@ -22,6 +22,24 @@ TEST(Statistics, StudentAgreesWithTables) {
     EXPECT_NEAR(studentTwoSided(6.0, 1e5) / studentTwoSided(6.0, 1e7), 1.0, 0.02);
 }
 
+TEST(Statistics, ChiSquareAgreesWithTables) {
+    EXPECT_NEAR(chiSquareTail(2.0 * std::log(20.0), 2.0), 0.05, 1e-12);  // exp(-x/2)
+    EXPECT_NEAR(chiSquareTail(3.841458821, 1.0), 0.05, 1e-9);
+    EXPECT_NEAR(chiSquareTail(124.3421134, 100.0), 0.05, 1e-8);
+    EXPECT_NEAR(chiSquareTail(67.32756330, 100.0), 0.995, 1e-8);
+}
+
+TEST(Statistics, ChiSquareMergesBinsOfLowExpectation) {
+    const std::vector<double> expected{100.0, 2.0, 100.0, 3.0, 1.0};  // 1 + 2 + 3 make one bin
+    const ChiSquare same = chiSquare(expected, expected);
+    EXPECT_EQ(same.degrees, 2.0);
+    EXPECT_EQ(same.p, 1.0);
+    const ChiSquare off = chiSquare(std::vector<double>{120.0, 2.0, 80.0, 3.0, 1.0}, expected);
+    EXPECT_NEAR(off.statistic, 8.0, 1e-12);
+    EXPECT_NEAR(off.p, std::exp(-4.0), 1e-12);
+    EXPECT_EQ(chiSquare(std::vector<double>{9.0, 1.0}, std::vector<double>{10.0, 0.0}).p, 0.0);
+}
+
 TEST(Statistics, SidakKeepsTheFamilyLevel) {
     EXPECT_NEAR(1.0 - std::pow(1.0 - sidakLevel(0.05, 20), 20.0), 0.05, 1e-12);
     EXPECT_NEAR(sidakLevel(1e-4, 6144), 1e-4 / 6144, 1e-11);

@@ -1,8 +1,11 @@
 #include "tests/support/statistics.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace duolux::test {
 
@@ -39,7 +42,66 @@ double incompleteBeta(double a, double b, double x) {
     return 1.0 - front * betaFraction(b, a, 1.0 - x) / b;
 }
 
+/// Regularised incomplete gamma function P(a, x) by its series (Abramowitz & Stegun, 6.5.29), for x < a + 1.
+double gammaSeries(double a, double x) {
+    double term = 1.0 / a;
+    double sum = term;
+    for (int n = 1; n < 100000 && std::abs(term) > 1e-17 * std::abs(sum); ++n) {
+        term *= x / (a + n);
+        sum += term;
+    }
+    return sum * std::exp(a * std::log(x) - x - std::lgamma(a));
+}
+
+/// Q(a, x) = 1 - P(a, x) by its continued fraction (Abramowitz & Stegun, 6.5.31), for x >= a + 1.
+double gammaFraction(double a, double x) {
+    double b = x + 1.0 - a;
+    double c = 1e300;
+    double d = 1.0 / b;
+    double fraction = d;
+    for (int n = 1; n < 100000; ++n) {
+        const double numerator = -n * (n - a);
+        b += 2.0;
+        d = 1.0 / (numerator * d + b);
+        c = b + numerator / c;
+        fraction *= d * c;
+        if (std::abs(d * c - 1.0) < 1e-15) break;
+    }
+    return fraction * std::exp(a * std::log(x) - x - std::lgamma(a));
+}
+
 }  // namespace
+
+double chiSquareTail(double x, double degrees) {
+    if (x <= 0.0) return 1.0;
+    const double a = 0.5 * degrees;
+    return 0.5 * x < a + 1.0 ? 1.0 - gammaSeries(a, 0.5 * x) : gammaFraction(a, 0.5 * x);
+}
+
+ChiSquare chiSquare(std::span<const double> observed, std::span<const double> expected, double minimum) {
+    assert(observed.size() == expected.size());
+    std::vector<std::size_t> order(observed.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
+    ChiSquare result;
+    double bins = 0.0;
+    double counts = 0.0;
+    double merged = 0.0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (!(expected[order[i]] > 0.0) && observed[order[i]] > 0.0) return {INFINITY, 1.0, 0.0};
+        counts += observed[order[i]];
+        merged += expected[order[i]];
+        // What is left at the end, too little for a bin of its own, cannot be: later bins expect more.
+        if (merged < minimum) continue;
+        result.statistic += (counts - merged) * (counts - merged) / merged;
+        bins += 1.0;
+        counts = merged = 0.0;
+    }
+    result.degrees = bins - 1.0;
+    if (result.degrees > 0.0) result.p = chiSquareTail(result.statistic, result.degrees);
+    return result;
+}
 
 double studentTwoSided(double t, double degrees) {
     // Far beyond any table the normal distribution is the same to the precision that a level needs.

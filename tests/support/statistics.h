@@ -1,12 +1,28 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 namespace duolux::test {
 
 /// Probability that |T| >= |t| for Student's T with `degrees` > 0 degrees of freedom (Abramowitz &
 /// Stegun, 26.7.1).
 double studentTwoSided(double t, double degrees);
+
+/// Probability that chi-square with `degrees` > 0 degrees of freedom is at least x (Abramowitz & Stegun,
+/// 26.4.19).
+double chiSquareTail(double x, double degrees);
+
+/// Pearson's test (Phil. Mag. 50, 1900) that counts come from a distribution.
+struct ChiSquare {
+    double statistic = 0.0;
+    double degrees = 0.0;
+    double p = 1.0;
+};
+/// `observed` and `expected`: counts, of the same sum up to rounding. Bins are merged, those with the lowest
+/// expectations first, until each expects at least `minimum`; counts in bins where nothing is expected give p
+/// = 0.
+ChiSquare chiSquare(std::span<const double> observed, std::span<const double> expected, double minimum = 5.0);
 
 /// Level of each of `tests` independent tests whose family errs with probability `alpha` (Sidak, JASA 62,
 /// 1967).

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "tests/shader/harness/shader_function.h"
+#include "tests/shader/mirror/mirror.h"
+
+namespace duolux::test {
+
+/// How far a result may be from the exact one: `ulps` units in the last place of the exact result as a float,
+/// or `floor`, whichever is more.
+struct Budget {
+    double ulps;
+    double floor;
+};
+
+/// Arguments of the functions in single precision as those in double precision take them. Overload it for
+/// structures, in the namespace of the structure.
+inline double widen(float x) {
+    return static_cast<double>(x);
+}
+inline std::uint32_t widen(std::uint32_t x) {
+    return x;
+}
+inline std::int32_t widen(std::int32_t x) {
+    return x;
+}
+inline bool widen(bool x) {
+    return x;
+}
+template <glm::length_t N>
+glm::vec<N, double> widen(const glm::vec<N, float>& v) {
+    return glm::vec<N, double>(v);
+}
+template <glm::length_t N>
+glm::vec<N, std::uint32_t> widen(const glm::vec<N, std::uint32_t>& v) {
+    return v;
+}
+
+/// Numbers that a result consists of. Overload it for structures, in their namespace, in terms of these.
+template <typename T>
+requires std::is_arithmetic_v<T> std::vector<double> numbers(T x) {
+    return {static_cast<double>(x)};
+}
+template <glm::length_t N, typename T>
+std::vector<double> numbers(const glm::vec<N, T>& v) {
+    std::vector<double> out;
+    for (glm::length_t i = 0; i < N; ++i)
+        out.push_back(static_cast<double>(v[i]));
+    return out;
+}
+template <typename... Parts>
+requires(sizeof...(Parts) > 1) std::vector<double> numbers(const Parts&... parts) {
+    std::vector<double> out;
+    const auto append = [&](const std::vector<double>& some) {
+        out.insert(out.end(), some.begin(), some.end());
+    };
+    (append(numbers(parts)), ...);
+    return out;
+}
+
+/// Size of a unit in the last place of a float of this magnitude.
+inline double ulpOf(double x) {
+    const float magnitude = static_cast<float>(std::min(std::abs(x), 3.4e38));
+    return static_cast<double>(std::nextafter(magnitude, std::numeric_limits<float>::infinity())) -
+           static_cast<double>(magnitude);
+}
+
+/// Fails the test unless what the device computed is within the budget of both oracles: `single`, the library
+/// as C++ in float, and `twice`, in double. The report has the worst component in units of the budget, and
+/// how many are beyond. An element of each argument an invocation.
+template <typename Result, typename Single, typename Twice, typename... Arguments>
+void expectOracles(std::string_view name, const std::vector<Result>& device, const Budget& budget,
+                   Single single, Twice twice, const std::vector<Arguments>&... arguments) {
+    const auto compare = [&](std::string_view oracle, auto&& reference) {
+        std::size_t beyond = 0, worstAt = 0, compared = 0;
+        double worst = -1.0;
+        std::string where;
+        for (std::size_t i = 0; i < device.size(); ++i) {
+            const std::vector<double> actual = numbers(device[i]);
+            const std::vector<double> expected = numbers(reference(i));
+            ASSERT_EQ(actual.size(), expected.size());
+            for (std::size_t c = 0; c < actual.size(); ++c) {
+                ++compared;
+                const double allowed = std::max(budget.ulps * ulpOf(expected[c]), budget.floor);
+                const bool same =
+                    actual[c] == expected[c] || (std::isnan(actual[c]) && std::isnan(expected[c]));
+                const double off = same ? 0.0 : std::abs(actual[c] - expected[c]) / allowed;
+                if (!(off <= 1.0)) ++beyond;
+                if (!(off <= worst)) {
+                    worst = off;
+                    worstAt = i;
+                    where = fmt::format("component {}: {:.9g}, expected {:.9g}", c, actual[c], expected[c]);
+                }
+                if (std::isnan(worst)) worst = std::numeric_limits<double>::infinity();
+            }
+        }
+        testing::Test::RecordProperty(fmt::format("{}_{}", name, oracle),
+                                      fmt::format("{:.3g} of the budget", worst));
+        EXPECT_EQ(beyond, 0u) << name << " against " << oracle << ": " << beyond << " of " << compared
+                              << " numbers beyond " << budget.ulps << " ulp and " << budget.floor
+                              << "; worst " << worst << " times that, invocation " << worstAt << ", "
+                              << where;
+        EXPECT_GT(compared, 0u);
+    };
+    compare("C++ in float", [&](std::size_t i) { return single(arguments[i]...); });
+    compare("C++ in double", [&](std::size_t i) { return twice(widen(arguments[i])...); });
+}
+
+/// The type of what a function returns for the first elements of its arguments.
+template <typename Function, typename... Arguments>
+auto resultOf(Function f, const std::vector<Arguments>&... arguments) {
+    return f(arguments.front()...);
+}
+
+}  // namespace duolux::test
+
+/// One function, by its name: called on the device through `library` and compared with both oracles. Of use
+/// in namespace duolux::test.
+///     EXPECT_ORACLES(warp, cosineHemisphere, (Budget{2, 5e-7}), us);
+#define EXPECT_ORACLES(library, function, budget, ...)                                        \
+    do {                                                                                      \
+        SCOPED_TRACE(#function);                                                              \
+        const auto single_ = [](const auto&... x) { return mirror::single::function(x...); }; \
+        const auto twice_ = [](const auto&... x) { return mirror::twice::function(x...); };   \
+        const auto device_ =                                                                  \
+            (library).call<decltype(resultOf(single_, __VA_ARGS__))>(#function, __VA_ARGS__); \
+        expectOracles(#function, device_, budget, single_, twice_, __VA_ARGS__);              \
+    } while (false)
