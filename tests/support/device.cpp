@@ -3,21 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 
 namespace duolux::test {
 
-Device& device() {
-    static const char* selector = std::getenv("DUOLUX_DEVICE");
-    static Device device(selector != nullptr ? selector : "cpu", Validation::kOn);
+namespace {
+
+std::unique_ptr<Device>& opened() {
+    static std::unique_ptr<Device> device;
     return device;
 }
-
-namespace {
 
 /// Each test fails if the validation layer said anything while it ran.
 class ValidationListener : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
-        const std::vector<std::string> messages = device().validationMessages();
+        if (opened() == nullptr) return;
+        const std::vector<std::string> messages = opened()->validationMessages();
         for (std::size_t i = seen_; i < messages.size(); ++i)
             ADD_FAILURE() << "validation: " << messages[i];
         seen_ = messages.size();
@@ -31,5 +32,15 @@ const bool kRegistered = [] {
 }();
 
 }  // namespace
+
+std::string deviceSelector() {
+    const char* selector = std::getenv("DUOLUX_DEVICE");
+    return selector != nullptr ? selector : "cpu";
+}
+
+Device& device() {
+    if (opened() == nullptr) opened() = std::make_unique<Device>(deviceSelector(), Validation::kOn);
+    return *opened();
+}
 
 }  // namespace duolux::test

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <string>
+
 #include "host/vk/device.h"
 
 namespace duolux::test {
 
-/// The one device of a test executable: chosen by the environment variable DUOLUX_DEVICE (default "cpu"),
-/// with validation on. Every executable that links duolux_test_device fails at its end if there was any
-/// validation message.
+/// The one device of a test executable, opened when a test first asks for it: the one that the environment
+/// variable DUOLUX_DEVICE chooses (default "cpu"), with validation on. Throws MachineError if there is none.
+/// In every executable that links duolux_test_device a test fails if there was any validation message.
 Device& device();
+
+/// What DUOLUX_DEVICE says.
+std::string deviceSelector();
 
 }  // namespace duolux::test

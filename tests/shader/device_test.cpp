@@ -1,0 +1,65 @@
+#include "tests/support/device.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+// Which device the tests run on, and what happens without one.
+
+namespace duolux::test {
+namespace {
+
+TEST(TestDevice, IsLavapipeUnlessAnotherIsAskedFor) {
+    const auto driver =
+        device()
+            .physical()
+            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+            .get<vk::PhysicalDeviceDriverProperties>();
+    RecordProperty("device", device().info().name);
+    RecordProperty("driver", device().info().driver);
+    const std::string selector = deviceSelector();
+    if (selector == "cpu" || selector == "llvmpipe" || selector == "lavapipe") {
+        EXPECT_EQ(driver.driverID, vk::DriverId::eMesaLlvmpipe) << device().info().driver;
+    } else {
+        EXPECT_FALSE(device().info().driver.empty());
+    }
+}
+
+ProgramResult runWith(const char* variable, const char* value, const std::vector<std::string>& arguments) {
+    const TemporaryFolder folder;
+    const char* old = std::getenv(variable);
+    const std::string saved = old != nullptr ? old : "";
+    setenv(variable, value, 1);
+    const ProgramResult result = runProgram(DUOLUX_SHADER_TEST, folder.path(), arguments);
+    if (old != nullptr) {
+        setenv(variable, saved.c_str(), 1);
+    } else {
+        unsetenv(variable);
+    }
+    return result;
+}
+
+TEST(TestDevice, NoDriverIsAFailure) {
+    const ProgramResult result =
+        runWith("VK_ICD_FILENAMES", "/nowhere", {"--gtest_filter=WarpGlsl.CosineHemisphereIsUnit"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.out, testing::HasSubstr("is a driver installed?"));
+    EXPECT_THAT(result.out, testing::HasSubstr("[  FAILED  ] 1 test"));
+}
+
+TEST(TestDevice, OneThatIsNotThereIsAFailure) {
+    const std::vector<std::string> arguments{"--gtest_filter=WarpGlsl.CosineHemisphereIsUnit"};
+    for (const ProgramResult& result :
+         {runWith("DUOLUX_DEVICE", "no such device", arguments),
+          runWith("DUOLUX_DEVICE", "cpu", {"--device", "no such device", arguments[0]})}) {
+        EXPECT_EQ(result.status, 1);
+        EXPECT_THAT(result.out, testing::HasSubstr("no such device"));
+    }
+}
+
+}  // namespace
+}  // namespace duolux::test
