@@ -5,6 +5,7 @@
 
 #include "host/base/file.h"
 #include "tests/shader/harness/compiler.h"
+#include "tests/shader/harness/coverage.h"
 #include "tests/shader/harness/glsl_test.h"
 #include "tests/shader/harness/shader_function.h"
 #include "tests/support/statistics.h"
@@ -241,6 +242,51 @@ TEST_F(Harness, TexelsAndConstantsReachTheLibrary) {
     EXPECT_THAT(library.evaluate<std::uint32_t>("result = fetchThing(x0).z * kFactor;",
                                                 std::vector<std::uint32_t>{0, 1}),
                 ElementsAre(300, 700));
+}
+
+TEST(Coverage, MarksFunctionsAndConditions) {
+    std::vector<CoveragePoint> points;
+    const std::string marked = instrument("a.glsl", R"(
+// A comment: is this a ? b : c
+float f(float x,
+        vec2 y) {
+    return x == 0.0 || y.x <= 1.0 ? g(x, y.y > 0.0 ? 1.0 : 2.0) : x < 1.0 ? 3.0 : 4.0;
+}
+struct S { float x; };
+uint[2] h(S s) {
+    bool b = (s.x != 0.0 ? 1u : 2u) == 1u;
+    if (b && s.x > 2.0) return uint[2](0u, 1u);
+    for (int i = 0; i < 3; i++) b = !b;
+    while (b) b = false;
+}
+)",
+                                          points);
+    EXPECT_EQ(marked, R"(
+// A comment: is this a ? b : c
+float f(float x,
+        vec2 y) { coverFunction_(0u);
+    return coverCondition_(5u, x == 0.0 || y.x <= 1.0) ? g(x, coverCondition_(6u, y.y > 0.0) ? 1.0 : 2.0) : coverCondition_(7u, x < 1.0) ? 3.0 : 4.0;
+}
+struct S { float x; };
+uint[2] h(S s) { coverFunction_(1u);
+    bool b = (coverCondition_(8u, s.x != 0.0) ? 1u : 2u) == 1u;
+    if (coverCondition_(2u, b && s.x > 2.0)) return uint[2](0u, 1u);
+    for (int i = 0; coverCondition_(3u, i < 3); i++) b = !b;
+    while (coverCondition_(4u, b)) b = false;
+}
+)");
+    ASSERT_EQ(points.size(), 9u);
+    std::vector<std::uint32_t> reached(18, 1);
+    reached[2] = 0;   // h
+    reached[11] = 0;  // x == 0.0 || ... true
+    EXPECT_EQ(coverageReport(points, reached),
+              R"(file                                   functions      outcomes
+a.glsl                                 1 of    2    13 of   14
+all                                    1 of    2    13 of   14
+
+a.glsl:5: x == 0.0 || y.x <= 1.0 is never true
+a.glsl:8: h is never called
+)");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "host/base/file.h"
+#include "tests/shader/harness/kernel_run.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -68,10 +69,13 @@ std::vector<std::uint32_t> compileKernel(std::string_view glsl) {
     return words;
 }
 
-std::string_view kernelHeader() {
-    return "#version 460\n"
-           "#extension GL_GOOGLE_include_directive : require\n"
-           "#extension GL_EXT_scalar_block_layout : require\n";
+std::string kernelHeader() {
+    std::string header =
+        "#version 460\n"
+        "#extension GL_GOOGLE_include_directive : require\n"
+        "#extension GL_EXT_scalar_block_layout : require\n";
+    if (coverageWords() > 0) header += "#include \"tests/shader/harness/coverage.glsl\"\n";
+    return header;
 }
 
 }  // namespace duolux::test

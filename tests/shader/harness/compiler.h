@@ -29,7 +29,8 @@ class CompileError : public std::runtime_error {
 /// May be called from several threads.
 std::vector<std::uint32_t> compileKernel(std::string_view glsl);
 
-/// First lines of every kernel: the version and the extensions that the harness needs.
-std::string_view kernelHeader();
+/// First lines of every kernel: the version, the extensions that the harness needs, and, where coverage is
+/// measured, what instrumented libraries call.
+std::string kernelHeader();
 
 }  // namespace duolux::test

@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cctype>
 #include <cstring>
 #include <future>
 #include <map>
 #include <set>
 
 #include "host/vk/commands.h"
-#include "host/vk/kernel.h"
 #include "tests/shader/harness/compiler.h"
+#include "tests/shader/harness/kernel_run.h"
+#include "tests/shader/harness/source_text.h"
 #include "tests/support/device.h"
 
 namespace duolux::test {
@@ -122,16 +122,6 @@ class BrokenFile : public testing::Test {
 
 }  // namespace
 
-std::string pascalCase(std::string_view snake) {
-    std::string out;
-    bool up = true;
-    for (const char c : snake) {
-        if (c != '_') out += up ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
-        up = c == '_';
-    }
-    return out;
-}
-
 std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t index) {
     const GlslFile::Test& test = file.tests[index];
     const std::vector<std::uint32_t> spirv = kernels().of(file);
@@ -145,11 +135,12 @@ std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t index) {
         commands.fillBuffer(expectations.handle(), 0, VK_WHOLE_SIZE, 0);
         commands.fillBuffer(invocations.handle(), 0, VK_WHOLE_SIZE, 0);
     });
-    const Kernel kernel(device(), file.name, spirv,
-                        std::vector<Binding>{{shared::kBindingExpectations, &expectations},
-                                             {shared::kBindingInvocations, &invocations}},
-                        std::vector<Specialization>{{shared::kSpecTest, static_cast<std::uint32_t>(index)}},
-                        sizeof(shared::TestDispatch));
+    const Kernel kernel =
+        harnessKernel(file.name, spirv,
+                      std::vector<Binding>{{shared::kBindingExpectations, &expectations},
+                                           {shared::kBindingInvocations, &invocations}},
+                      std::vector<Specialization>{{shared::kSpecTest, static_cast<std::uint32_t>(index)}},
+                      sizeof(shared::TestDispatch));
     dispatchAll(kernel, test, shared::kPassCount);
     std::size_t failed = 0;
     for (const std::uint32_t word : contents<std::uint32_t>(invocations, words))

@@ -17,7 +17,4 @@ std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t test);
 /// NAME_test.glsl is the file. A file that cannot be understood becomes a test that fails.
 void registerGlslTests(const std::filesystem::path& folder);
 
-/// "light_matrix" -> "LightMatrix".
-std::string pascalCase(std::string_view snake);
-
 }  // namespace duolux::test

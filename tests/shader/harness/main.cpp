@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/shader/harness/compiler.h"
+#include "tests/shader/harness/coverage.h"
 #include "tests/shader/harness/glsl_test.h"
 
 int main(int argc, char** argv) {
@@ -22,6 +23,9 @@ int main(int argc, char** argv) {
     app.add_option("--sources", sources,
                    "folder whose files stand in for those of the same name in the project")
         ->check(CLI::ExistingDirectory);
+    std::string coverage;
+    app.add_option("--coverage", coverage,
+                   "file for a report on which functions and branches of the library the tests reach");
     const bool help =
         argc == 2 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h");
     if (!help) testing::InitGoogleTest(&argc, argv);  // takes its own options away
@@ -29,5 +33,6 @@ int main(int argc, char** argv) {
     if (!device.empty()) setenv("DUOLUX_DEVICE", device.c_str(), 1);
     if (!sources.empty()) sourceRoots().insert(sourceRoots().begin(), sources);
     registerGlslTests(DUOLUX_GLSL_TESTS);
+    if (!coverage.empty()) measureCoverage(DUOLUX_GLSL_LIBRARY, coverage);
     return RUN_ALL_TESTS();
 }

@@ -9,6 +9,7 @@ DUOLUX_BEGIN
 DUOLUX_CONST uint kTestWorkgroup = 64u;
 DUOLUX_CONST uint kBindingExpectations = 0u;  // storage: Expectation, one a line of the test file
 DUOLUX_CONST uint kBindingInvocations = 1u;   // storage: a bit for each invocation that failed
+DUOLUX_CONST uint kBindingCoverage = 99u;     // storage: see coverage.glsl
 DUOLUX_CONST uint kSpecTest = 1000u;          // index of the test within its file
 
 // How far failures are off, as a multiple of what is allowed (of 1 where nothing is): 1 to 2 times, 2 to 4

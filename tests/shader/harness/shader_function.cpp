@@ -6,8 +6,8 @@
 #include <set>
 
 #include "host/vk/commands.h"
-#include "host/vk/kernel.h"
 #include "tests/shader/harness/compiler.h"
+#include "tests/shader/harness/kernel_run.h"
 #include "tests/shader/harness/report_layout.h"
 #include "tests/support/device.h"
 
@@ -46,7 +46,7 @@ std::size_t ShaderLibrary::invocations(std::initializer_list<std::size_t> sizes)
 
 std::string ShaderLibrary::kernel(std::string_view statements, const std::vector<Array>& arguments,
                                   const Array& result) const {
-    std::string glsl(kernelHeader());
+    std::string glsl = kernelHeader();
     glsl += fmt::format("layout(local_size_x = {}) in;\n", shared::kTestWorkgroup) + code_;
     std::set<std::string_view> declared;
     const auto declare = [&](const Array& array) {
@@ -109,7 +109,7 @@ void ShaderLibrary::run(std::string_view statements, const std::vector<Array>& a
         bindings.push_back({static_cast<std::uint32_t>(bindings.size()), &output});
         for (const Buffer& b : texels)
             bindings.push_back({static_cast<std::uint32_t>(bindings.size()), &b});
-        const Kernel kernel(device(), statements, spirv, bindings, constants, sizeof(std::uint32_t));
+        const Kernel kernel = harnessKernel(statements, spirv, bindings, constants, sizeof(std::uint32_t));
         runOnce(device(), statements, [&](const vk::raii::CommandBuffer& commands) {
             const auto push = static_cast<std::uint32_t>(count);
             kernel.dispatch(commands, push, (push + shared::kTestWorkgroup - 1) / shared::kTestWorkgroup);

@@ -53,4 +53,14 @@ bool isWordCharacter(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
+std::string pascalCase(std::string_view snake) {
+    std::string out;
+    bool up = true;
+    for (const char c : snake) {
+        if (c != '_') out += up ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+        up = c == '_';
+    }
+    return out;
+}
+
 }  // namespace duolux::test

@@ -22,4 +22,7 @@ std::string collapseSpaces(std::string_view text);
 /// Whether a character can be a part of an identifier or a number.
 bool isWordCharacter(char c);
 
+/// "light_matrix" -> "LightMatrix".
+std::string pascalCase(std::string_view snake);
+
 }  // namespace duolux::test
