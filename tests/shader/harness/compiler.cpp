@@ -30,8 +30,12 @@ std::string readable(std::string report, const std::filesystem::path& scratch) {
 }  // namespace
 
 std::vector<std::filesystem::path>& sourceRoots() {
-    static std::vector<std::filesystem::path> roots{DUOLUX_SOURCE_ROOT};
+    static std::vector<std::filesystem::path> roots{DUOLUX_SOURCE_ROOT, DUOLUX_HARNESS_ROOT};
     return roots;
+}
+
+std::filesystem::path projectRoot() {
+    return DUOLUX_SOURCE_ROOT;
 }
 
 std::string readSource(std::string_view name) {

@@ -10,9 +10,13 @@
 
 namespace duolux::test {
 
-/// Where `#include "NAME"` is looked for, in this order: NAME is relative to these folders. The last is the
-/// project's root; what stands before it takes the place of files of the same name.
+/// Where `#include "NAME"` is looked for, in this order: NAME is relative to these folders. At first there
+/// are the project's root and, if that is another, the harness's; what is put before them takes the place of
+/// files of the same name.
 std::vector<std::filesystem::path>& sourceRoots();
+
+/// Root of the project whose shaders are tested.
+std::filesystem::path projectRoot();
 
 /// The text of a file that is named like an included one. Throws std::runtime_error if no root has it.
 std::string readSource(std::string_view name);

@@ -125,7 +125,7 @@ class Coverage : public testing::Environment {
   public:
     Coverage(const std::filesystem::path& folder, std::filesystem::path report) : report_(std::move(report)) {
         std::set<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(sourceRoots().back() / folder)) {
+        for (const auto& entry : std::filesystem::directory_iterator(projectRoot() / folder)) {
             if (entry.path().extension() == ".glsl")
                 names.insert((folder / entry.path().filename()).string());
         }

@@ -154,8 +154,7 @@ std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t index) {
 
 void registerGlslTests(const std::filesystem::path& folder) {
     std::set<std::string> names;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(DUOLUX_SOURCE_ROOT) / folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(projectRoot() / folder)) {
         if (entry.path().filename().string().ends_with("_test.glsl"))
             names.insert((folder / entry.path().filename()).string());
     }

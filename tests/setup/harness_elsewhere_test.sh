@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# harness_elsewhere_test.sh CMAKE SOURCE_DIR: another project takes the harness of shader tests as tests/README.md says.
+set -euo pipefail
+cmake=$1 source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "FAILED: $1" >&2 && exit 1; }
+
+cd "$work"
+for part in tests/shader/harness tests/support host/vk host/base shaders/shared/types.h; do
+  mkdir -p "duolux/$(dirname $part)"
+  cp -r "$source/$part" "duolux/$part"
+done
+# The block of the page that is a CMakeLists.txt.
+sed -n '/^    cmake_minimum_required/,/^    gtest_discover_tests/s/^    //p' "$source/tests/README.md" >CMakeLists.txt
+mkdir shaders shader_tests
+cat >shaders/square.glsl <<EOF
+float square(float x) { return x * x; }
+EOF
+cat >shader_tests/square_test.glsl <<EOF
+#include "shaders/square.glsl"
+
+TEST(IsNotNegative) {
+    EXPECT_GE(square(randomFloat(-1.0, 1.0)), 0.0);
+}
+
+TEST(IsWrong) {
+    EXPECT_EQ(square(3.0), 6.0);
+}
+EOF
+"$cmake" -G Ninja -S . -B build >log 2>&1 || { cat log && fail "the project cannot be configured"; }
+"$cmake" --build build >log 2>&1 || { cat log && fail "the project cannot be built"; }
+ctest --test-dir build >log 2>&1 && fail "a test that fails passes"
+cat log
+grep -q 'SquareGlsl.IsNotNegative .* *Passed' log || fail "a test that passes fails"
+grep -q '1 tests failed out of 2' log || fail "there are not two tests, of which one fails"
+build/shader_test --coverage coverage.txt >log && fail "a test that fails passes"
+grep -q 'shader_tests/square_test.glsl:8: Failure' log || fail "the failure does not name its place"
+grep -q 'shaders/square.glsl  *1 of  *1' coverage.txt || fail "there is no coverage of square"
