@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
     app.get_formatter()->label("SUBCOMMAND", "COMMAND");
     app.get_formatter()->label("Subcommands", "Commands");
     duolux::addRenderCommand(app);
+    duolux::addBenchCommand(app);
     duolux::addCompareCommand(app);
     duolux::addDevicesCommand(app);
     duolux::addInfoCommand(app);

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "host/app/commands.h"
+#include "host/app/options.h"
+#include "host/base/error.h"
+#include "host/bench/bench_report.h"
+#include "host/bench/builtin_scenes.h"
+#include "host/bench/suite.h"
+
+namespace duolux {
+
+namespace {
+
+struct BenchOptions {
+    std::vector<std::string> scenes{"cornell", "spot", "two-spheres-1000", "two-spheres-500000"};
+    std::vector<std::string> only;
+    std::string device, size = "512x512", json, baseline;
+    std::uint32_t repeat = 5, spp = 16, bounces = 16;
+    double threshold = 0.1;
+    bool quiet = false;
+};
+
+/// A folder for scenes and pictures, gone at the end.
+class Scratch {
+  public:
+    Scratch() {
+        std::string name = (std::filesystem::temp_directory_path() / "duolux-bench-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) throw MachineError(fmt::format("{}: cannot be made", name));
+        path_ = name;
+    }
+    ~Scratch() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// Which scenes there are is known before the first is measured.
+void checkScenes(const BenchOptions& options) {
+    for (const std::string& scene : options.scenes) {
+        if (isBuiltinScene(scene) || std::filesystem::exists(scene)) continue;
+        throw UsageError(fmt::format(
+            "bench: {} is neither a file nor a built-in scene; expected a scene file or one of {}", scene,
+            fmt::join(builtinSceneNames(), ", ")));
+    }
+}
+
+/// Names of results: of a file the stem, which may not tell two apart.
+std::string benchName(const std::string& scene) {
+    return isBuiltinScene(scene) ? scene : std::filesystem::path(scene).stem().string();
+}
+
+void bench(const BenchOptions& options) {
+    const glm::uvec2 size = parseSize(options.size);
+    checkScenes(options);
+    std::vector<std::string> inputs = options.scenes;
+    inputs.push_back(options.baseline);
+    if (!options.json.empty() && options.json != "-") checkOutputs({{"--json", options.json, false}}, inputs);
+    Baseline baseline;
+    if (!options.baseline.empty()) baseline = readBaseline(options.baseline);
+    Device device(options.device);
+    fmt::print("{}, {}\n", device.info().name, device.info().driver);
+    const Scratch scratch;
+    std::vector<BenchResult> results;
+    for (const std::string& scene : options.scenes) {
+        const std::string name = benchName(scene);
+        const std::filesystem::path folder = scratch.path() / std::to_string(results.size());
+        const std::filesystem::path file =
+            isBuiltinScene(scene) ? writeBuiltinScene(scene, folder) : std::filesystem::path(scene);
+        std::filesystem::create_directories(folder);
+        SceneSuite suite(device, name, file, {size.x, size.y, options.spp, options.bounces, "/proc/self/exe"},
+                         folder);
+        const std::vector<Benchmark> chosen = suite.benchmarks(options.only);
+        const auto onRun = [&](const std::string& what) {
+            if (!options.quiet) fmt::print(stderr, "{}\n", what);
+        };
+        const std::vector<BenchResult> measured = runBenchmarks(chosen, options.repeat, onRun);
+        results.insert(results.end(), measured.begin(), measured.end());
+    }
+    if (results.empty()) {
+        throw UsageError(
+            fmt::format("bench: no benchmark's name contains {}", fmt::join(options.only, " or ")));
+    }
+    fmt::print("{}", benchTable(results));
+    if (!options.json.empty()) {
+        writeReport(options.json, benchJson(results, device.info(),
+                                            {{"width", size.x},
+                                             {"height", size.y},
+                                             {"spp", options.spp},
+                                             {"bounces", options.bounces},
+                                             {"repeat", options.repeat}}));
+    }
+    if (options.baseline.empty()) return;
+    const BaselineComparison comparison = compareWithBaseline(results, baseline, options.threshold);
+    fmt::print("\n{}", comparison.table);
+    if (baseline.device != device.info().name || baseline.driver != device.info().driver) {
+        warn(fmt::format("{} was measured on {}, {}", options.baseline, baseline.device, baseline.driver));
+    }
+    if (comparison.compared == 0)
+        throw UsageError(fmt::format("{}: has none of these benchmarks", options.baseline));
+    if (!comparison.regressions.empty()) {
+        throw MachineError(fmt::format("{} of {} benchmarks are more than {:g} % slower than in {}: {}",
+                                       comparison.regressions.size(), comparison.compared,
+                                       100.0 * options.threshold, options.baseline,
+                                       fmt::join(comparison.regressions, ", ")));
+    }
+}
+
+}  // namespace
+
+void addBenchCommand(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bench", "Measure kernels, whole renders and the host's part");
+    auto options = std::make_shared<BenchOptions>();
+    command
+        ->add_option(
+            "SCENE", options->scenes,
+            fmt::format("Scene files (.json, .obj), or built-in: {}", fmt::join(builtinSceneNames(), ", ")))
+        ->capture_default_str();
+    command->add_option("--only", options->only, "Only benchmarks whose names contain one of these texts");
+    command->add_option("--device", options->device,
+                        "cpu, gpu, an index or a part of a name (see 'duolux devices')");
+    command->add_option("--repeat", options->repeat, "Runs that count, in turns, after one that does not")
+        ->capture_default_str()
+        ->check(wholeNumber(1, 1000));
+    command->add_option("--size", options->size, "Pixels of pictures, and rays of a set")
+        ->capture_default_str();
+    command->add_option("--spp", options->spp, "Samples per pixel of pictures")
+        ->capture_default_str()
+        ->check(wholeNumber(1, 65536));
+    command->add_option("--bounces", options->bounces, "Bounces of pictures; shadowless: at most 4")
+        ->capture_default_str()
+        ->check(wholeNumber(0, 65535));
+    command->add_option("--json", options->json, "File for all results (-: standard output)")
+        ->check(notEmpty());
+    command
+        ->add_option("--baseline", options->baseline,
+                     "Such a file of before: prints ratios; exit status 1 if slower")
+        ->check(notEmpty());
+    command
+        ->add_option("--threshold", options->threshold,
+                     "Part by which a median may be slower than the baseline's")
+        ->capture_default_str()
+        ->check(between(0, 1));
+    command->add_flag("--quiet", options->quiet, "Do not name on standard error what is running");
+    command->callback([options] { bench(*options); });
+}
+
+}  // namespace duolux

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/bench/benchmark.h"
+#include "host/vk/device.h"
+
+namespace duolux {
+
+/// A table for people: rates of wall time, lowest, median and highest, and of device time.
+std::string benchTable(std::span<const BenchResult> results);
+
+/// Everything, as JSON with a "version".
+std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& device,
+                      const std::map<std::string, double>& settings);
+
+/// Medians of wall rates by name, of a file that benchJson made.
+struct Baseline {
+    std::string device, driver, commit;
+    std::map<std::string, double> medians;
+};
+/// Throws InputError.
+Baseline readBaseline(const std::filesystem::path& file);
+
+struct BaselineComparison {
+    std::string table;
+    std::vector<std::string> regressions;  ///< names of what is slower by more than the threshold
+    std::size_t compared = 0;
+};
+/// Ratios to a baseline, above 1 where it is better now; `threshold`: the part by which it may be worse.
+BaselineComparison compareWithBaseline(std::span<const BenchResult> results, const Baseline& baseline,
+                                       double threshold);
+
+}  // namespace duolux

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace duolux {
+
+/// Seconds that a run took.
+struct BenchTimes {
+    double wall = 0.0;
+    double device = 0.0;  ///< by the device's timestamps; 0: it was not asked, or has none
+};
+
+/// Something that can be run again and again.
+struct Benchmark {
+    std::string name;  ///< by parts, as in "cornell/rays/primary"
+    std::string unit;  ///< of `work` per second; "s": the time itself is what counts
+    double work = 1.0;
+    std::function<BenchTimes()> run;
+    std::map<std::string, double> notes;  ///< what else there is to say, as "nodes_per_ray"
+};
+
+/// Lowest, median and highest.
+struct Spread {
+    double low = 0.0, median = 0.0, high = 0.0;
+};
+/// Of at least one value.
+Spread spreadOf(std::vector<double> values);
+
+struct BenchResult {
+    std::string name, unit;
+    double work = 1.0;
+    std::map<std::string, double> notes;
+    std::vector<BenchTimes> times;
+
+    bool isTime() const { return unit == "s"; }
+    /// Work per second, or seconds, of wall time; of device time (all 0 where there is none).
+    Spread wall() const;
+    Spread device() const;
+};
+
+/// Runs each benchmark once without counting it, then all in turns, `repeats` times: what disturbs the
+/// machine for a while disturbs all alike. `onRun` is told what comes next.
+std::vector<BenchResult> runBenchmarks(const std::vector<Benchmark>& benchmarks, std::uint32_t repeats,
+                                       const std::function<void(const std::string&)>& onRun);
+
+}  // namespace duolux

@@ -1,0 +1,223 @@
+#include "host/bench/suite.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+
+#include "host/base/error.h"
+#include "host/bench/ray_sets.h"
+#include "host/bench/trace_kernel.h"
+#include "host/bvh/wide_bvh.h"
+#include "host/render/render.h"
+#include "host/scene/load.h"
+
+namespace duolux {
+
+namespace {
+
+double secondsOf(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Bytes of all files beside a scene that it may consist of: what loading reads.
+std::uintmax_t sceneBytes(const std::filesystem::path& scene) {
+    std::uintmax_t bytes = 0;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(scene.parent_path(), ignored)) {
+        const auto extension = entry.path().extension();
+        if (extension == ".obj" || extension == ".mtl" || extension == ".json") bytes += entry.file_size();
+    }
+    return bytes;
+}
+
+/// Runs the program and waits. The environment is this one's, with `extra` before it.
+double secondsOfProgram(const std::vector<std::string>& arguments, const std::vector<std::string>& extra) {
+    std::vector<char*> argv, environment;
+    for (const std::string& a : arguments)
+        argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    for (const std::string& e : extra)
+        environment.push_back(const_cast<char*>(e.c_str()));
+    for (char** e = environ; *e != nullptr; ++e)
+        environment.push_back(*e);
+    environment.push_back(nullptr);
+    int status = 0;
+    const double seconds = secondsOf([&] {
+        pid_t child = 0;
+        if (posix_spawn(&child, argv[0], nullptr, nullptr, argv.data(), environment.data()) != 0 ||
+            waitpid(child, &status, 0) != child) {
+            throw MachineError(fmt::format("{}: cannot be started", arguments[0]));
+        }
+    });
+    if (status != 0)
+        throw MachineError(fmt::format("{}: failed as a benchmark of starting up", arguments[0]));
+    return seconds;
+}
+
+struct NamedReflectance {
+    const char* name;
+    std::uint32_t bounces;  ///< at most; shadowless light in closed rooms grows with every bounce
+};
+constexpr NamedReflectance kPresets[] = {
+    {"global", UINT32_MAX}, {"shadowless", 4}, {"one-bounce", UINT32_MAX}, {"local", UINT32_MAX}};
+
+/// Passes that take about this long, so that what a submission costs does not count.
+constexpr double kSecondsPerRun = 0.05;
+
+}  // namespace
+
+struct SceneSuite::State {
+    Device& device;
+    std::string name;
+    std::filesystem::path path, folder;
+    SuiteOptions options;
+    Scene scene;
+    DeviceScene deviceScene;
+    std::vector<RaySet> raySets;
+    std::vector<std::unique_ptr<TraceKernel>> kernels;
+    std::vector<Benchmark> benchmarks;
+
+    State(Device& device_, std::string name_, std::filesystem::path path_, std::filesystem::path folder_,
+          SuiteOptions options_)
+        : device(device_),
+          name(std::move(name_)),
+          path(std::move(path_)),
+          folder(std::move(folder_)),
+          options(std::move(options_)),
+          scene(loadScene(path)),
+          deviceScene(uploadScene(device, scene)) {}
+
+    void add(const std::string& what, std::string unit, double work, std::function<BenchTimes()> run,
+             std::map<std::string, double> notes = {}) {
+        benchmarks.push_back({name + "/" + what, std::move(unit), work, std::move(run), std::move(notes)});
+    }
+
+    void addRays();
+    void addRenders();
+    void addHost();
+    void addStart();
+};
+
+void SceneSuite::State::addRays() {
+    raySets = makeRaySets(device, scene, deviceScene, options.width, options.height);
+    for (const RaySet& set : raySets) {
+        TraceKernel counting(device, deviceScene, set.mode, set.rays, true);
+        counting.run();
+        const shared::TraceCounts counts = counting.counts();
+        const auto rays = static_cast<double>(set.rays.size());
+        const double lanes = std::max(device.info().subgroupSize, 1u);
+        const std::map<std::string, double> notes{
+            {"nodes_per_ray", counts.nodes / rays},
+            {"triangles_per_ray", counts.triangles / rays},
+            {"bytes_per_ray",
+             (counts.nodes * 16.0 * shared::kNodeTexels + counts.triangles * 16.0 * shared::kTriangleTexels) /
+                 rays},
+            {"lanes_in_nodes", counts.nodes / (lanes * std::max(counts.nodeSteps, 1u))},
+            {"lanes_in_triangles", counts.triangles / (lanes * std::max(counts.triangleSteps, 1u))}};
+        kernels.push_back(std::make_unique<TraceKernel>(device, deviceScene, set.mode, set.rays));
+        TraceKernel& kernel = *kernels.back();
+        kernel.run();
+        kernel.hits();  // throws if the driver has cut it short
+        const double once = kernel.run().wall;
+        const auto passes =
+            static_cast<std::uint32_t>(std::clamp(std::ceil(kSecondsPerRun / once), 1.0, 1000.0));
+        add(
+            "rays/" + set.name, "Mrays/s", rays * passes * 1e-6,
+            [&kernel, passes] { return kernel.run(passes); }, notes);
+    }
+}
+
+void SceneSuite::State::addRenders() {
+    for (const NamedReflectance& preset : kPresets) {
+        for (const Integrator integrator : {Integrator::kPath, Integrator::kLight}) {
+            Scene changed = scene;
+            changed.reflectance = *presetReflectance(preset.name);
+            changed.render.width = options.width;
+            changed.render.height = options.height;
+            changed.render.spp = options.spp;
+            changed.render.bounces = std::min(options.bounces, preset.bounces);
+            changed.render.integrator = integrator;
+            const double samples = static_cast<double>(options.width) * options.height * options.spp;
+            add(fmt::format("render/{}/{}", preset.name, nameOf(integrator)), "Msamples/s", samples * 1e-6,
+                [this, changed = std::move(changed)] {
+                    const RenderStatistics statistics = render(device, changed).statistics;
+                    return BenchTimes{statistics.renderSeconds, statistics.deviceSeconds};
+                });
+        }
+    }
+}
+
+void SceneSuite::State::addHost() {
+    const auto triangles = static_cast<double>(scene.geometry.triangles.size());
+    add("load", "MB/s", static_cast<double>(sceneBytes(path)) * 1e-6, [this] {
+        return BenchTimes{secondsOf([this] { loadScene(path); }), 0.0};
+    });
+    add("build", "Mtriangles/s", triangles * 1e-6,
+        [this] {
+            return BenchTimes{secondsOf([this] { buildWideBvh(scene.geometry); }), 0.0};
+        },
+        {{"device_bytes_per_triangle", static_cast<double>(deviceScene.deviceBytes()) / triangles}});
+    add("upload", "MB/s", static_cast<double>(deviceScene.deviceBytes()) * 1e-6, [this] {
+        return BenchTimes{uploadScene(device, scene).uploadSeconds, 0.0};
+    });
+}
+
+void SceneSuite::State::addStart() {
+    if (options.program.empty()) return;
+    const std::vector<std::string> arguments{options.program,
+                                             "render",
+                                             path.string(),
+                                             "--size",
+                                             "64x64",
+                                             "--spp",
+                                             "1",
+                                             "--quiet",
+                                             "--device",
+                                             std::to_string(device.info().index),
+                                             "-o",
+                                             (folder / "start.pfm").string()};
+    add("start/warm", "s", 1.0, [=] { return BenchTimes{secondsOfProgram(arguments, {}), 0.0}; });
+    add("start/cold", "s", 1.0, [=, this] {
+        const std::filesystem::path cache = folder / "cache";
+        std::filesystem::remove_all(cache);
+        std::filesystem::create_directories(cache);
+        return BenchTimes{secondsOfProgram(arguments, {"MESA_SHADER_CACHE_DIR=" + cache.string(),
+                                                       "XDG_CACHE_HOME=" + cache.string()}),
+                          0.0};
+    });
+}
+
+SceneSuite::SceneSuite(Device& device, std::string name, const std::filesystem::path& scene,
+                       SuiteOptions options, std::filesystem::path folder)
+    : state_(std::make_unique<State>(device, std::move(name), scene, std::move(folder), std::move(options))) {
+    state_->addRays();
+    state_->addRenders();
+    state_->addHost();
+    state_->addStart();
+}
+
+SceneSuite::~SceneSuite() = default;
+
+std::size_t SceneSuite::triangles() const {
+    return state_->scene.geometry.triangles.size();
+}
+
+std::vector<Benchmark> SceneSuite::benchmarks(const std::vector<std::string>& only) {
+    std::vector<Benchmark> chosen;
+    for (const Benchmark& b : state_->benchmarks) {
+        const auto matches = [&](const std::string& part) { return b.name.find(part) != std::string::npos; };
+        if (only.empty() || std::any_of(only.begin(), only.end(), matches)) chosen.push_back(b);
+    }
+    return chosen;
+}
+
+}  // namespace duolux

@@ -1,0 +1,108 @@
+#include "host/bench/trace_kernel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "host/base/error.h"
+#include "shaders/embedded.h"
+
+namespace duolux {
+
+namespace {
+
+bool onCpu(const Device& device) {
+    return device.info().kind == DeviceKind::kCpu;
+}
+
+std::uint32_t lanesOf(const Device& device) {
+    return std::max(device.info().subgroupSize, 1u);
+}
+
+// Rays that a lane traces, one after the other. Few lanes run at once on a CPU; on a GPU they must be many.
+std::uint32_t chooseBlock(const Device& device) {
+    return lanesOf(device) * (onCpu(device) ? 128u : 4u);
+}
+
+std::uint32_t chooseWorkgroup(const Device& device) {
+    return std::max(lanesOf(device), onCpu(device) ? 8u : 64u);
+}
+
+Buffer makeResults(const Device& device, std::size_t rays, bool count) {
+    const std::size_t size = count ? sizeof(shared::TraceCounts) : rays * sizeof(shared::TraceHit);
+    return Buffer::readback(device, size, "hits", vk::BufferUsageFlagBits::eTransferDst);
+}
+
+}  // namespace
+
+TraceKernel::TraceKernel(const Device& device, const DeviceScene& scene, std::uint32_t mode,
+                         std::span<const shared::TraceRay> rays, bool count)
+    : device_(&device),
+      rayCount_(static_cast<std::uint32_t>(rays.size())),
+      lanes_(lanesOf(device)),
+      blockRays_(chooseBlock(device)),
+      workgroupSize_(chooseWorkgroup(device)),
+      count_(count),
+      rays_(Buffer::upload(device, BufferUse::kTexels, rays, "rays")),
+      results_(makeResults(device, rays.size(), count)),
+      kernel_(device, "trace", spirv::kTraceKernel,
+              std::vector<Binding>{{shared::kBindingNodes, &scene.nodes},
+                                   {shared::kBindingTriangles, &scene.triangles},
+                                   {shared::kBindingRays, &rays_},
+                                   {shared::kBindingHits, &results_}},
+              std::vector<Specialization>{{shared::kSpecWorkgroupSize, workgroupSize_},
+                                          {shared::kSpecLeaveTraversal, lanes_ / 2},
+                                          {shared::kSpecLeaveNodes, lanes_ * 3 / 8},
+                                          {shared::kSpecTraceMode, mode},
+                                          {shared::kSpecCount, count}},
+              sizeof(shared::TraceDispatch)),
+      commands_(device) {}
+
+BenchTimes TraceKernel::run(std::uint32_t passes) {
+    using Stage = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    runOnce(*device_, "clearing hits", [&](const vk::raii::CommandBuffer& commands) {
+        commands.fillBuffer(results_.handle(), 0, VK_WHOLE_SIZE, count_ ? 0u : 0xffffffffu);
+    });
+    const std::uint32_t blocks = (rayCount_ + blockRays_ - 1) / blockRays_;
+    const std::uint32_t groups = (blocks * lanes_ + workgroupSize_ - 1) / workgroupSize_;
+    const shared::TraceDispatch push{rayCount_, blockRays_};
+    const auto start = std::chrono::steady_clock::now();
+    commands_.submit("tracing rays", [&](const vk::raii::CommandBuffer& commands) {
+        for (std::uint32_t pass = 0; pass < passes; ++pass) {
+            if (pass > 0) {
+                const vk::MemoryBarrier barrier(Access::eShaderWrite,
+                                                Access::eShaderRead | Access::eShaderWrite);
+                commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader, {}, barrier, {}, {});
+            }
+            kernel_.dispatch(commands, push, groups);
+        }
+    });
+    const double device = commands_.wait("tracing rays");
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    results_.invalidate();
+    return {wall, device};
+}
+
+std::vector<shared::TraceHit> TraceKernel::hits() const {
+    std::vector<shared::TraceHit> out(rayCount_);
+    std::memcpy(out.data(), results_.mapped(), out.size() * sizeof(shared::TraceHit));
+    for (const shared::TraceHit& hit : out) {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &hit.t, sizeof bits);
+        if (bits != 0xffffffffu) continue;
+        throw MachineError(fmt::format("tracing rays: {} ({}) has ended the kernel's loops early",
+                                       device_->info().name, device_->info().driver));
+    }
+    return out;
+}
+
+shared::TraceCounts TraceKernel::counts() const {
+    shared::TraceCounts out{};
+    std::memcpy(&out, results_.mapped(), sizeof out);
+    return out;
+}
+
+}  // namespace duolux

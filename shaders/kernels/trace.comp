@@ -1,0 +1,112 @@
+// Traces given rays: the traversal by itself, for benchmarks. The lanes of a subgroup share a block of rays; those that
+// have done theirs take the next ones, as in the path tracer, so that all stay busy.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+
+#include "shaders/shared/trace_layout.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint kLeaveTraversal = 4u;
+layout(constant_id = 2) const uint kLeaveNodes = 3u;
+layout(constant_id = 3) const uint kMode = 0u;
+layout(constant_id = 4) const bool kCount = false;
+
+layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
+layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
+layout(binding = kBindingRays) uniform usamplerBuffer rayTexels;
+layout(binding = kBindingHits, scalar) writeonly buffer HitsBlock { TraceHit hits[]; };
+layout(binding = kBindingHits, scalar) buffer CountsBlock { TraceCounts counts; };
+layout(push_constant, scalar) uniform DispatchBlock { TraceDispatch dispatch; };
+
+#include "shaders/lib/traverse.glsl"
+
+uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
+uvec4 fetchTriangleTexel(uint index) { return texelFetch(triangleTexels, int(index)); }
+
+const bool kOrdered = kMode == kTraceAllCrossings;
+
+Traversal startRay(uint index) {
+    uvec4 t0 = texelFetch(rayTexels, int(2u * index));
+    uvec4 t1 = texelFetch(rayTexels, int(2u * index + 1u));
+    return traversalStart(0u, uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t0.w), kNoTriangle,
+                          uintBitsToFloat(t1.w), kMode == kTraceAnyHit);
+}
+
+// As traverse(), and counts what lanes do and how many steps the subgroup takes for it.
+void traverseCounting(inout Traversal r, inout TraceCounts sums) {
+    while (traversalAlive(r)) {
+        while (r.triangleMask == 0u && r.nodesLeft) {
+            sums.nodeSteps += subgroupElect() ? 1u : 0u;
+            sums.nodes += 1u;
+            visitNode(r);
+            if (subgroupBallotBitCount(subgroupBallot(r.triangleMask == 0u && r.nodesLeft)) < kLeaveNodes) break;
+        }
+        while (r.triangleMask != 0u) {
+            sums.triangleSteps += subgroupElect() ? 1u : 0u;
+            sums.triangles += 1u;
+            testTriangle(r, kOrdered);
+        }
+        if (r.anyHit && r.triangle != kNoTriangle) {
+            r.nodesLeft = false;
+            r.triangleMask = 0u;
+        }
+        if (subgroupBallotBitCount(subgroupBallot(traversalAlive(r))) < kLeaveTraversal) break;
+    }
+}
+
+void main() {
+    uint block = gl_GlobalInvocationID.x / gl_SubgroupSize;
+    uint next = block * dispatch.blockRays;
+    uint end = min(next + dispatch.blockRays, dispatch.rays);
+    uint index = next + gl_SubgroupInvocationID;
+    next += gl_SubgroupSize;
+    bool busy = index < end;
+    Traversal ray = startRay(min(index, dispatch.rays - 1u));
+    ray.nodesLeft = busy;
+    uint crossings = 0u;
+    TraceHit first = TraceHit(-1.0, vec3(0.0));
+    TraceCounts sums = TraceCounts(0u, 0u, 0u, 0u);
+
+    while (subgroupBallot(busy) != uvec4(0u)) {
+        if (kCount) {
+            traverseCounting(ray, sums);
+        } else {
+            traverse(ray, kOrdered, kLeaveTraversal, kLeaveNodes);
+        }
+        bool found = ray.triangle != kNoTriangle;
+        bool done = busy && !traversalAlive(ray);
+        if (kOrdered && done && found) {
+            // On behind the surface.
+            first.t = crossings == 0u ? ray.t : first.t;
+            crossings += 1u;
+            first.normal = vec3(float(crossings), 0.0, 0.0);
+            uvec4 t1 = texelFetch(rayTexels, int(2u * index + 1u));
+            ray = traversalStart(0u, ray.origin, ray.direction, ray.t, ray.primitive, uintBitsToFloat(t1.w), false);
+            done = false;
+        }
+        if (done) {
+            if (!kOrdered) {
+                Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
+                first = TraceHit(found ? ray.t : -1.0, cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+            }
+            if (!kCount) hits[index] = first;
+        }
+        uvec4 idle = subgroupBallot(done);
+        if (done) {
+            index = next + subgroupBallotExclusiveBitCount(idle);
+            busy = index < end;
+            ray = startRay(min(index, dispatch.rays - 1u));
+            ray.nodesLeft = busy;
+            crossings = 0u;
+            first = TraceHit(-1.0, vec3(0.0));
+        }
+        next += subgroupBallotBitCount(idle);
+    }
+    if (kCount) {
+        atomicAdd(counts.nodes, sums.nodes);
+        atomicAdd(counts.triangles, sums.triangles);
+        atomicAdd(counts.nodeSteps, sums.nodeSteps);
+        atomicAdd(counts.triangleSteps, sums.triangleSteps);
+    }
+}

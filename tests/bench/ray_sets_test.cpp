@@ -1,0 +1,95 @@
+#include "host/bench/ray_sets.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/bench/builtin_scenes.h"
+#include "host/bench/trace_kernel.h"
+#include "host/scene/load.h"
+#include "tests/reference/triangles.h"
+#include "tests/support/device.h"
+#include "tests/support/temporary_folder.h"
+
+namespace duolux::test {
+namespace {
+
+using reference::Crossing;
+using reference::Vec3;
+
+Scene builtin(const std::string& name) {
+    const TemporaryFolder folder;
+    return loadScene(writeBuiltinScene(name, folder.path()));
+}
+
+TEST(BuiltinScenes, AreThoseOfTheAssets) {
+    EXPECT_EQ(builtin("cornell").hash, loadScene(DUOLUX_ASSETS "/cornell/cornell.json").hash);
+    EXPECT_EQ(builtin("spot").hash, loadScene(DUOLUX_ASSETS "/spot/spot.json").hash);
+    EXPECT_NEAR(static_cast<double>(builtin("two-spheres-1000").geometry.triangles.size()), 1000.0, 10.0);
+    EXPECT_TRUE(isBuiltinScene("two-spheres-1000"));
+    for (const char* name :
+         {"two-spheres", "two-spheres-", "two-spheres-x", "two-spheres-5", "Cornell", "1000"})
+        EXPECT_FALSE(isBuiltinScene(name)) << name;
+}
+
+/// Each ray by all triangles in double precision: the nearest, any, and all of them.
+class RaySets : public testing::TestWithParam<const char*> {};
+
+TEST_P(RaySets, KernelMeetsWhatBruteForceMeets) {
+    const Scene scene = builtin(GetParam());
+    const DeviceScene deviceScene = uploadScene(device(), scene);
+    const reference::Triangles triangles(scene.geometry);
+    const Bounds bounds = boundsOf(scene.geometry);
+    const double size = glm::length(Vec3(bounds.upper) - Vec3(bounds.lower));
+    std::vector<std::string> names;
+    for (const RaySet& set : makeRaySets(device(), scene, deviceScene, 40, 30)) {
+        names.push_back(set.name);
+        ASSERT_GT(set.rays.size(), 100u) << set.name;
+        TraceKernel kernel(device(), deviceScene, set.mode, set.rays);
+        kernel.run(2);
+        const std::vector<shared::TraceHit> hits = kernel.hits();
+        std::size_t differences = 0;
+        for (std::size_t i = 0; i < set.rays.size(); ++i) {
+            const shared::TraceRay& ray = set.rays[i];
+            std::vector<Crossing> found;
+            triangles.crossings({Vec3(ray.origin), Vec3(ray.direction)}, static_cast<double>(ray.tMax),
+                                reference::Triangles::kNone, reference::Triangles::kNone, found);
+            const bool hit = hits[i].t >= 0.0f;
+            bool same = hit == !found.empty();
+            if (same && hit && set.mode != shared::kTraceAnyHit) {
+                const double off = std::abs(static_cast<double>(hits[i].t) - found.front().distance);
+                same = off < 1e-4 * (size + found.front().distance);
+            }
+            if (same && hit && set.mode == shared::kTraceAllCrossings) {
+                same = static_cast<std::size_t>(hits[i].normal.x) == found.size();
+            }
+            differences += same ? 0 : 1;
+        }
+        // A ray within rounding of an edge meets one triangle, both or none; and some start in a corner of
+        // the room, on the other wall but for rounding.
+        EXPECT_LE(static_cast<double>(differences), 0.01 * static_cast<double>(set.rays.size())) << set.name;
+    }
+    EXPECT_THAT(names, testing::ElementsAre("primary", "diffuse", "shadow", "crossings"));
+}
+
+TEST_P(RaySets, CountsAreThoseOfTheRays) {
+    const Scene scene = builtin(GetParam());
+    const DeviceScene deviceScene = uploadScene(device(), scene);
+    const std::uint32_t lanes = device().info().subgroupSize;
+    for (const RaySet& set : makeRaySets(device(), scene, deviceScene, 40, 30)) {
+        TraceKernel counting(device(), deviceScene, set.mode, set.rays, true);
+        counting.run();
+        const shared::TraceCounts counts = counting.counts();
+        EXPECT_GE(counts.nodes, set.rays.size()) << set.name;  // the root at least
+        EXPECT_GT(counts.triangles, 0u) << set.name;
+        EXPECT_LE(counts.nodes, std::uint64_t{counts.nodeSteps} * lanes) << set.name;
+        EXPECT_LE(counts.triangles, std::uint64_t{counts.triangleSteps} * lanes) << set.name;
+        EXPECT_LE(counts.nodeSteps, counts.nodes) << set.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RaySets, testing::Values("cornell", "two-spheres-1000"));
+
+}  // namespace
+}  // namespace duolux::test

@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/base/file.h"
+#include "tests/cli/run_duolux.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::HasSubstr;
+
+class BenchCommand : public testing::Test {
+  protected:
+    ProgramResult bench(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"bench", "--device", "cpu"});
+        return runDuolux(folder_.path(), std::move(arguments));
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(BenchCommand, MeasuresEverythingOnASmallScene) {
+    const ProgramResult result =
+        bench({"cornell", "--size", "16x16", "--spp", "1", "--repeat", "2", "--json", "a.json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json json = nlohmann::json::parse(contentsOf(folder_ / "a.json"));
+    std::vector<std::string> names;
+    for (const nlohmann::json& r : json["results"]) {
+        names.push_back(r["name"]);
+        EXPECT_EQ(r["wall_seconds"].size(), 2u);
+        EXPECT_GT(r["wall"]["median"].get<double>(), 0.0) << names.back();
+        EXPECT_THAT(result.out, HasSubstr(names.back()));
+        EXPECT_THAT(result.err, HasSubstr(names.back()));
+    }
+    EXPECT_THAT(
+        names,
+        testing::UnorderedElementsAre(
+            "cornell/rays/primary", "cornell/rays/diffuse", "cornell/rays/shadow", "cornell/rays/crossings",
+            "cornell/render/global/path", "cornell/render/global/light", "cornell/render/shadowless/path",
+            "cornell/render/shadowless/light", "cornell/render/one-bounce/path",
+            "cornell/render/one-bounce/light", "cornell/render/local/path", "cornell/render/local/light",
+            "cornell/load", "cornell/build", "cornell/upload", "cornell/start/warm", "cornell/start/cold"));
+    EXPECT_GT(json["results"][0]["notes"]["nodes_per_ray"].get<double>(), 1.0);
+    EXPECT_THAT(json["device"]["driver"], HasSubstr("llvmpipe"));
+}
+
+TEST_F(BenchCommand, ComparesWithABaseline) {
+    const std::vector<std::string> arguments{"cornell", "--size", "16x16",        "--repeat",
+                                             "1",       "--only", "rays/primary", "--quiet"};
+    std::vector<std::string> first = arguments;
+    first.insert(first.end(), {"--json", "a.json"});
+    const ProgramResult written = bench(first);
+    ASSERT_EQ(written.status, 0) << written.err;
+    EXPECT_EQ(written.err, "");
+    nlohmann::json json = nlohmann::json::parse(contentsOf(folder_ / "a.json"));
+    ASSERT_EQ(json["results"].size(), 1u);
+    const auto compare = [&](double factor) {
+        nlohmann::json changed = json;
+        changed["results"][0]["wall"]["median"] = factor * json["results"][0]["wall"]["median"].get<double>();
+        writeFile(folder_ / "b.json", changed.dump());
+        std::vector<std::string> second = arguments;
+        second.insert(second.end(), {"--baseline", "b.json"});
+        return bench(second);
+    };
+    const ProgramResult faster = compare(1e-3);
+    EXPECT_EQ(faster.status, 0) << faster.err;
+    const ProgramResult slower = compare(1e3);
+    EXPECT_EQ(slower.status, 1);
+    EXPECT_THAT(
+        slower.err,
+        HasSubstr("1 of 1 benchmarks are more than 10 % slower than in b.json: cornell/rays/primary"));
+}
+
+TEST_F(BenchCommand, RefusesWhatItCannotMeasure) {
+    ProgramResult result = bench({"nowhere.json"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("nowhere.json is neither a file nor a built-in scene"));
+    result = bench({"cornell", "--only", "nothing", "--quiet", "--size", "16x16"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("no benchmark's name contains nothing"));
+    writeFile(folder_ / "bad.json", "{}");
+    result = bench({"cornell", "--baseline", "bad.json"});
+    EXPECT_EQ(result.status, 3);
+    EXPECT_EQ(bench({"cornell", "--baseline", "none.json"}).status, 3);
+    EXPECT_EQ(bench({"cornell", "--repeat", "0"}).status, 2);
+}
+
+}  // namespace
+}  // namespace duolux::test
