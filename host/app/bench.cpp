@@ -2,11 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "host/app/commands.h"
@@ -14,6 +12,7 @@
 #include "host/base/error.h"
 #include "host/bench/bench_report.h"
 #include "host/bench/builtin_scenes.h"
+#include "host/bench/scratch_folder.h"
 #include "host/bench/suite.h"
 
 namespace duolux {
@@ -27,26 +26,6 @@ struct BenchOptions {
     std::uint32_t repeat = 5, spp = 16, bounces = 16;
     double threshold = 0.1;
     bool quiet = false;
-};
-
-/// A folder for scenes and pictures, gone at the end.
-class Scratch {
-  public:
-    Scratch() {
-        std::string name = (std::filesystem::temp_directory_path() / "duolux-bench-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw MachineError(fmt::format("{}: cannot be made", name));
-        path_ = name;
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
 };
 
 /// Which scenes there are is known before the first is measured.
@@ -74,7 +53,7 @@ void bench(const BenchOptions& options) {
     if (!options.baseline.empty()) baseline = readBaseline(options.baseline);
     Device device(options.device);
     fmt::print("{}, {}\n", device.info().name, device.info().driver);
-    const Scratch scratch;
+    const ScratchFolder scratch;
     std::vector<BenchResult> results;
     for (const std::string& scene : options.scenes) {
         const std::string name = benchName(scene);

@@ -1,0 +1,208 @@
+// duolux-peers: the same rays and the same path tracer through Embree, in turns with Duolux on the same
+// cores.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/app/options.h"
+#include "host/base/error.h"
+#include "host/bench/bench_report.h"
+#include "host/bench/builtin_scenes.h"
+#include "host/bench/ray_sets.h"
+#include "host/bench/scratch_folder.h"
+#include "host/bench/trace_kernel.h"
+#include "host/bvh/wide_bvh.h"
+#include "host/peers/embree_path_tracer.h"
+#include "host/peers/embree_scene.h"
+#include "host/render/render.h"
+#include "host/scene/load.h"
+
+namespace {
+
+using namespace duolux;
+
+struct PeerOptions {
+    std::vector<std::string> scenes{"cornell", "two-spheres-500000"};
+    std::vector<std::string> only;
+    std::string device = "cpu", json, image;
+    std::uint32_t repeat = 5, spp = 16, size = 512, bounces = 16;
+};
+
+BenchTimes timed(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 0.0};
+}
+
+/// One scene, by both.
+class Pair {
+  public:
+    Pair(Device& device, const std::string& name, const std::filesystem::path& file,
+         const PeerOptions& options)
+        : device_(device), scene_(loadScene(file)), options_(options) {
+        scene_.reflectance = *presetReflectance("global");
+        scene_.render.width = scene_.render.height = options.size;
+        scene_.render.spp = options.spp;
+        scene_.render.bounces = options.bounces;
+        deviceScene_ = std::make_unique<DeviceScene>(uploadScene(device, scene_));
+        embree_ = std::make_unique<EmbreeScene>(scene_.geometry);
+        lights_ = buildLightTable(scene_, false);
+        addRays(name);
+        addRender(name);
+        addBuild(name);
+    }
+
+    const std::vector<Benchmark>& benchmarks() const { return benchmarks_; }
+
+    /// Mean radiance of the picture by Duolux and by Embree.
+    void compareImages() const {
+        const std::vector<glm::vec3> ours = render(device_, scene_).film.resolve().visible;
+        const std::vector<glm::vec3> theirs = renderByEmbree(*embree_, scene_, lights_).visible;
+        glm::dvec3 a(0.0), b(0.0);
+        for (std::size_t i = 0; i < ours.size(); ++i)
+            a += glm::dvec3(ours[i]), b += glm::dvec3(theirs[i]);
+        const auto n = static_cast<double>(ours.size());
+        fmt::print("{}: mean radiance by Duolux {:.5f} {:.5f} {:.5f}, by Embree {:.5f} {:.5f} {:.5f}\n",
+                   scene_.source.filename().string(), a.x / n, a.y / n, a.z / n, b.x / n, b.y / n, b.z / n);
+    }
+
+  private:
+    void add(const std::string& name, const std::string& unit, double work, std::function<BenchTimes()> ours,
+             std::function<BenchTimes()> theirs) {
+        benchmarks_.push_back({name + "/duolux", unit, work, std::move(ours), {}});
+        benchmarks_.push_back({name + "/embree", unit, work, std::move(theirs), {}});
+    }
+
+    void addRays(const std::string& name) {
+        sets_ = makeRaySets(device_, scene_, *deviceScene_, options_.size, options_.size);
+        for (const RaySet& set : sets_) {
+            if (set.mode == shared::kTraceAllCrossings) continue;  // Embree would need a filter function
+            kernels_.push_back(std::make_unique<TraceKernel>(device_, *deviceScene_, set.mode, set.rays));
+            TraceKernel& kernel = *kernels_.back();
+            add(
+                name + "/rays/" + set.name, "Mrays/s", static_cast<double>(set.rays.size()) * 4e-6,
+                [&kernel] { return kernel.run(4); },
+                [this, &set] {
+                    return timed([&] {
+                        for (int pass = 0; pass < 4; ++pass)
+                            embree_->trace(set.rays, set.mode, distances_);
+                    });
+                });
+        }
+    }
+
+    void addRender(const std::string& name) {
+        const double samples =
+            static_cast<double>(scene_.render.width) * scene_.render.height * scene_.render.spp;
+        add(
+            name + "/render/global", "Msamples/s", samples * 1e-6,
+            [this] {
+                const RenderStatistics s = render(device_, scene_).statistics;
+                return BenchTimes{s.renderSeconds, s.deviceSeconds};
+            },
+            [this] { return timed([&] { renderByEmbree(*embree_, scene_, lights_); }); });
+    }
+
+    void addBuild(const std::string& name) {
+        add(
+            name + "/build", "Mtriangles/s", static_cast<double>(scene_.geometry.triangles.size()) * 1e-6,
+            [this] { return timed([&] { buildWideBvh(scene_.geometry); }); },
+            [this] {
+                return BenchTimes{EmbreeScene(scene_.geometry).buildSeconds(), 0.0};
+            });
+    }
+
+    Device& device_;
+    Scene scene_;
+    const PeerOptions& options_;
+    std::unique_ptr<DeviceScene> deviceScene_;
+    std::unique_ptr<EmbreeScene> embree_;
+    LightTable lights_;
+    std::vector<RaySet> sets_;
+    std::vector<std::unique_ptr<TraceKernel>> kernels_;
+    std::vector<float> distances_;
+    std::vector<Benchmark> benchmarks_;
+};
+
+void printRatios(const std::vector<BenchResult>& results) {
+    fmt::print("\n{:<44} {:>8}\n", "Duolux / Embree, medians", "ratio");
+    for (std::size_t i = 0; i + 1 < results.size(); i += 2) {
+        const std::string& name = results[i].name;
+        fmt::print("{:<44} {:>8.2f}\n", name.substr(0, name.rfind('/')),
+                   results[i].wall().median / results[i + 1].wall().median);
+    }
+}
+
+void run(const PeerOptions& options) {
+    Device device(options.device);
+    fmt::print("{}, {}\n", device.info().name, device.info().driver);
+    const ScratchFolder scratch;
+    std::vector<BenchResult> results;
+    for (const std::string& scene : options.scenes) {
+        const bool builtin = isBuiltinScene(scene);
+        const std::filesystem::path file =
+            builtin ? writeBuiltinScene(scene, scratch.path() / scene) : std::filesystem::path(scene);
+        const Pair pair(device, builtin ? scene : file.stem().string(), file, options);
+        pair.compareImages();
+        std::vector<Benchmark> chosen;
+        for (const Benchmark& b : pair.benchmarks()) {
+            const auto matches = [&](const std::string& part) {
+                return b.name.find(part) != std::string::npos;
+            };
+            if (options.only.empty() || std::any_of(options.only.begin(), options.only.end(), matches))
+                chosen.push_back(b);
+        }
+        const std::vector<BenchResult> measured =
+            runBenchmarks(chosen, options.repeat, [](const std::string&) {});
+        results.insert(results.end(), measured.begin(), measured.end());
+    }
+    fmt::print("{}", benchTable(results));
+    printRatios(results);
+    if (!options.json.empty()) {
+        writeReport(options.json, benchJson(results, device.info(),
+                                            {{"size", options.size},
+                                             {"spp", options.spp},
+                                             {"bounces", options.bounces},
+                                             {"repeat", options.repeat}}));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Duolux and Embree (single rays) in turns: the same rays, the same path tracer, on the same cores.");
+    PeerOptions options;
+    app.add_option("SCENE", options.scenes,
+                   fmt::format("Scene files, or {}", fmt::join(builtinSceneNames(), ", ")))
+        ->capture_default_str();
+    app.add_option("--only", options.only, "Only benchmarks whose names contain one of these texts");
+    app.add_option("--device", options.device, "Duolux's device")->capture_default_str();
+    app.add_option("--repeat", options.repeat, "Runs that count")
+        ->capture_default_str()
+        ->check(wholeNumber(1, 1000));
+    app.add_option("--size", options.size, "Pixels a side")
+        ->capture_default_str()
+        ->check(wholeNumber(1, 16384));
+    app.add_option("--spp", options.spp, "Samples per pixel")
+        ->capture_default_str()
+        ->check(wholeNumber(1, 65536));
+    app.add_option("--bounces", options.bounces, "Bounces")
+        ->capture_default_str()
+        ->check(wholeNumber(0, 65535));
+    app.add_option("--json", options.json, "File for all results");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        run(options);
+        return 0;
+    } catch (const Error& e) {
+        fmt::print(stderr, "duolux-peers: {}\n", e.what());
+        return static_cast<int>(e.status());
+    }
+}
