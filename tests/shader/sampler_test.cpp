@@ -1,147 +1,229 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
-#include "tests/support/run_kernel.h"
+#include "shaders/shared/path_layout.h"
+#include "tests/shader/inputs.h"
+#include "tests/shader/oracles.h"
+#include "tests/shader/published_sequences.h"
+#include "tests/shader/uniformity.h"
 
-namespace duolux::spirv {
-extern const std::span<const std::uint32_t> kSamplerTest;
-}
+// The samples of a path: whether what differs in pixel, sample, dimension, seed, or use is independent.
 
 namespace duolux::test {
 namespace {
 
-using Vector = std::array<std::uint32_t, 4>;
+using shared::kSamplerIndependent;
+using shared::kSamplerSobol;
 
-struct Push {
-    std::uint32_t count, function;
+const ShaderLibrary& sampler() {
+    static const ShaderLibrary library("shaders/lib/sampler.glsl");
+    return library;
+}
+
+/// What a sample is named by.
+struct Name {
+    std::uint32_t pixel, sample, dimension, seed;
 };
 
-std::vector<Vector> evaluate(const std::vector<Vector>& inputs, std::uint32_t function) {
-    const Buffer input = Buffer::upload<Vector>(device(), BufferUse::kStorage, inputs, "inputs");
-    const auto count = static_cast<std::uint32_t>(inputs.size());
-    return runKernel<Vector>(spirv::kSamplerTest, {{0, &input}}, 1, Push{count, function}, count);
+/// The two words of a pair, and the upper 24 bits of the two numbers of a choice.
+using Words = std::array<std::vector<std::uint32_t>, 4>;
+
+Words draw(std::uint32_t kind, const std::vector<Name>& names) {
+    std::vector<std::uint32_t> pixels, samples, dimensions, seeds;
+    for (const Name& name : names) {
+        pixels.push_back(name.pixel);
+        samples.push_back(name.sample);
+        dimensions.push_back(name.dimension);
+        seeds.push_back(name.seed);
+    }
+    Words words;
+    for (const glm::uvec4& v :
+         sampler().evaluate<glm::uvec4>("result = uvec4(sampleWords(x0, x1, x2, x3, x4), "
+                                        "uvec2(sampleChoice(x1, x2, x3, x4) * 16777216.0) << 8u);",
+                                        kind, pixels, samples, dimensions, seeds)) {
+        for (std::size_t w = 0; w < 4; ++w)
+            words[w].push_back(v[static_cast<glm::length_t>(w)]);
+    }
+    return words;
 }
 
-float asFloat(std::uint32_t bits) {
-    float f = 0.0f;
-    std::memcpy(&f, &bits, sizeof f);
-    return f;
+/// The names of `count` samples, counted by one of the members.
+std::vector<Name> counted(std::uint32_t Name::*member, std::uint32_t count, Name first = {5, 0, 4, 1}) {
+    std::vector<Name> names(count, first);
+    for (std::uint32_t i = 0; i < count; ++i)
+        names[i].*member += i;
+    return names;
 }
 
-/// pcg4d as published, written again for the host.
-Vector pcg4d(Vector v) {
-    for (auto& x : v)
-        x = x * 1664525u + 1013904223u;
-    const auto mix = [&] {
-        v[0] += v[1] * v[3];
-        v[1] += v[2] * v[0];
-        v[2] += v[0] * v[1];
-        v[3] += v[1] * v[2];
-    };
-    mix();
-    for (auto& x : v)
-        x ^= x >> 16;
-    mix();
-    return v;
-}
+const std::vector<std::pair<const char*, std::uint32_t Name::*>> kMembers{{"pixels", &Name::pixel},
+                                                                          {"samples", &Name::sample},
+                                                                          {"dimensions", &Name::dimension},
+                                                                          {"seeds", &Name::seed}};
 
-TEST(Rng, MatchesThePublishedGenerator) {
-    std::vector<Vector> inputs;
-    for (std::uint32_t i = 0; i < 1000; ++i)
-        inputs.push_back({i, i * 7919u, ~i, i << 20});
-    const std::vector<Vector> outputs = evaluate(inputs, 0);
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-        EXPECT_EQ(outputs[i], pcg4d(inputs[i])) << i;
-}
-
-std::uint32_t reversed(std::uint32_t x) {
-    std::uint32_t r = 0;
-    for (int i = 0; i < 32; ++i)
-        r |= (x >> i & 1u) << (31 - i);
-    return r;
-}
-
-TEST(Upload, ThroughAStagingBufferGivesTheSame) {
-    std::vector<Vector> inputs;
-    for (std::uint32_t i = 0; i < 5000; ++i)
-        inputs.push_back({i, ~i, i * i, i << 7});
-    const Buffer staged =
-        Buffer::uploadStaged(device(), BufferUse::kStorage, std::as_bytes(std::span(inputs)), "inputs");
-    const auto count = static_cast<std::uint32_t>(inputs.size());
-    EXPECT_EQ(runKernel<Vector>(spirv::kSamplerTest, {{0, &staged}}, 1, Push{count, 0}, count),
-              evaluate(inputs, 0));
-}
-
-TEST(Sobol, SecondDimensionMatchesTheDirectionNumbers) {
-    // Primitive polynomial x + 1: v_1 = 2^31, v_(i+1) = v_i ^ (v_i >> 1) (Joe and Kuo, 2008).
-    std::array<std::uint32_t, 32> direction{};
-    direction[0] = 1u << 31;
-    for (std::size_t i = 1; i < 32; ++i)
-        direction[i] = direction[i - 1] ^ direction[i - 1] >> 1;
-    std::vector<Vector> inputs;
-    for (std::uint32_t i = 0; i < 4096; ++i)
-        inputs.push_back({i < 2048 ? i : i * 2654435761u, 0, 0, 0});
-    const std::vector<Vector> outputs = evaluate(inputs, 1);
-    for (std::size_t k = 0; k < inputs.size(); ++k) {
-        std::uint32_t expected = 0;
-        for (std::size_t bit = 0; bit < 32; ++bit) {
-            if ((inputs[k][0] >> bit & 1u) != 0) expected ^= direction[bit];
+TEST(Sampler, WordsAreThoseOfThePublishedGenerators) {
+    const std::vector<std::uint32_t> words = randomWords(4 * 2048, 1);
+    std::vector<Name> names;
+    for (std::size_t i = 0; i < words.size(); i += 4)
+        names.push_back({words[i], words[i + 1], words[i + 2], words[i + 3]});
+    const Words sobol = draw(kSamplerSobol, names);
+    const Words independent = draw(kSamplerIndependent, names);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto& [pixel, sample, dimension, seed] = names[i];
+        const glm::uvec2 pair = publishedPair(sample, publishedPcg4d({pixel, ~0u, dimension, seed}));
+        const glm::uvec4 random = publishedPcg4d({pixel, sample, dimension, seed});
+        ASSERT_EQ(glm::uvec2(sobol[0][i], sobol[1][i]), pair) << i;
+        ASSERT_EQ(glm::uvec2(independent[0][i], independent[1][i]), glm::uvec2(random.x, random.y)) << i;
+        for (const Words* w : {&sobol, &independent}) {
+            ASSERT_EQ((*w)[2][i], random.z >> 8 << 8) << i;
+            ASSERT_EQ((*w)[3][i], random.w >> 8 << 8) << i;
         }
-        EXPECT_EQ(reversed(outputs[k][0]), expected) << inputs[k][0];
     }
 }
 
-/// Every elementary interval of 2^m points in base 2 holds exactly one of the first 2^m points: a (0, m,
-/// 2)-net. Owen scrambling keeps the property, and so does the shuffling of the index.
-TEST(Sobol, ScrambledPairsAreNets) {
-    constexpr std::uint32_t kLog = 8;
-    constexpr std::uint32_t kPoints = 1u << kLog;
-    for (std::uint32_t pixel : {0u, 1u, 77777u}) {
-        for (std::uint32_t dimension : {0u, 1u, 65537u}) {
-            std::vector<Vector> inputs;
-            for (std::uint32_t i = 0; i < kPoints; ++i)
-                inputs.push_back({i, pixel, dimension, 1});
-            const std::vector<Vector> points = evaluate(inputs, 2);
-            for (std::uint32_t a = 0; a <= kLog; ++a) {
-                std::vector<int> count(kPoints);
-                for (const Vector& p : points) {
-                    const auto x = static_cast<std::uint32_t>(std::ldexp(asFloat(p[0]), static_cast<int>(a)));
-                    const auto y =
-                        static_cast<std::uint32_t>(std::ldexp(asFloat(p[1]), static_cast<int>(kLog - a)));
-                    ++count[x << (kLog - a) | y];
+/// Of the first 2^m samples of a pixel's dimension, as the kernels draw them: one in each elementary
+/// interval.
+TEST(Sampler, SobolPairsOfAnyPixelAndDimensionAreNets) {
+    for (const std::uint32_t pixel : {0u, 1u, 77777u}) {
+        for (const std::uint32_t dimension : {0u, 1u, 65537u}) {
+            for (std::uint32_t m = 1; m <= 8; ++m) {
+                const std::uint32_t count = 1u << m;
+                std::vector<std::uint32_t> samples;
+                for (std::uint32_t i = 0; i < count; ++i)
+                    samples.push_back(i);
+                const std::vector<glm::vec2> points =
+                    sampler().call<glm::vec2>("samplePair", kSamplerSobol, pixel, samples, dimension, 1u);
+                for (std::uint32_t a = 0; a <= m; ++a) {
+                    std::vector<int> counts(count);
+                    for (const glm::vec2& p : points) {
+                        const auto x = static_cast<std::uint32_t>(std::ldexp(p.x, static_cast<int>(a)));
+                        const auto y = static_cast<std::uint32_t>(std::ldexp(p.y, static_cast<int>(m - a)));
+                        ++counts[x << (m - a) | y];
+                    }
+                    EXPECT_EQ(std::count(counts.begin(), counts.end(), 1), count)
+                        << "pixel " << pixel << " dimension " << dimension << ", 2^" << m << " points, split "
+                        << a;
                 }
-                EXPECT_EQ(std::count(count.begin(), count.end(), 1), kPoints)
-                    << "pixel " << pixel << " dimension " << dimension << " split " << a;
             }
         }
     }
 }
 
-/// Pairs of different dimensions, and of different pixels, are independent: their correlation over n points
-/// is about normal with deviation 1 / sqrt(n). 3 x 2 comparisons at 5 deviations: a false alarm once in 10^5.
-TEST(Sobol, DimensionsPixelsAndSeedsAreUncorrelated) {
-    constexpr std::uint32_t kPoints = 1 << 14;
-    const auto series = [&](std::uint32_t pixel, std::uint32_t dimension, std::uint32_t seed) {
-        std::vector<Vector> inputs;
-        for (std::uint32_t i = 0; i < kPoints; ++i)
-            inputs.push_back({i, pixel, dimension, seed});
-        return evaluate(inputs, 2);
-    };
-    const std::vector<Vector> base = series(5, 4, 1);
-    const std::vector<std::vector<Vector>> others{series(5, 8, 1), series(6, 4, 1), series(5, 4, 2)};
-    for (const std::vector<Vector>& other : others) {
-        for (std::size_t component : {0u, 1u}) {
-            double sum = 0.0;
-            for (std::uint32_t i = 0; i < kPoints; ++i) {
-                sum += (static_cast<double>(asFloat(base[i][component])) - 0.5) *
-                       (static_cast<double>(asFloat(other[i][component])) - 0.5) * 12.0;
+/// Pairs and choices fall evenly into squares as any part of the name is counted, and so does each number
+/// with the next one of its sequence; for Sobol points the samples in the sequence do not count as
+/// independent, because they are better than that. A false alarm once in 10^4.
+TEST(Sampler, NumbersAreUniformAndSeriallyIndependent) {
+    constexpr std::uint32_t kCount = 1 << 16;
+    Family family;
+    for (const std::uint32_t kind : {kSamplerSobol, kSamplerIndependent}) {
+        for (const auto& [what, member] : kMembers) {
+            const Words words = draw(kind, counted(member, kCount));
+            const bool net = kind == kSamplerSobol && member == &Name::sample;
+            for (std::size_t a = net ? 2 : 0; a < 4; ++a) {
+                const std::string name = fmt::format("{}, kind {}, number {}", what, kind, a);
+                const std::span<const std::uint32_t> word(words[a]);
+                family.add(name + ", consecutive",
+                           evenlyInSquares(word.first(kCount - 1), word.subspan(1), 5));
+                family.add(name + ", serial correlation",
+                           uncorrelated(word.first(kCount - 1), word.subspan(1)));
+                for (std::size_t b = 0; b < a; ++b) {
+                    family.add(fmt::format("{} with {}", name, b), evenlyInSquares(word, words[b], 5));
+                    family.add(fmt::format("{}, correlation with {}", name, b), uncorrelated(word, words[b]));
+                }
             }
-            EXPECT_LT(std::abs(sum / kPoints), 5.0 / std::sqrt(kPoints));
         }
+    }
+    family.expect(1e-4);
+}
+
+/// Sequences of samples whose names differ in one part, by a step as it occurs: the next pixel, the one below
+/// at a width of 512, the next purpose, crossing and scattering event, the next seed.
+const std::vector<std::pair<const char*, Name>> kSteps{{"next pixel", {1, 0, 0, 0}},
+                                                       {"pixel below", {512, 0, 0, 0}},
+                                                       {"next purpose", {0, 0, 1, 0}},
+                                                       {"next crossing", {0, 0, 4, 0}},
+                                                       {"next scattering", {0, 0, 1u << 16, 0}},
+                                                       {"next seed", {0, 0, 0, 1}},
+                                                       {"next pixel and seed", {1, 0, 0, 1}}};
+
+/// The correlation of two independent, uniform sequences of n numbers has mean 0, and deviation 1 / sqrt(n)
+/// if they are random; Sobol points of independent keys may be more alike in a single pair of sequences, but
+/// no more often of one sign than of the other. Student's t of the mean over 128 places, for each component
+/// with each; the root mean square within 1.5 / sqrt(n). A false alarm once in 10^4.
+TEST(Sampler, PixelsDimensionsAndSeedsAreUncorrelated) {
+    constexpr std::uint32_t kPlaces = 128;
+    constexpr std::uint32_t kSamples = 256;
+    const auto series = [&](std::uint32_t kind, const Name& step) {
+        std::vector<Name> names;
+        for (std::uint32_t place = 0; place < kPlaces; ++place) {
+            const Name first{place * 1031 + step.pixel, 0, 4 + step.dimension, place + step.seed};
+            for (const Name& name : counted(&Name::sample, kSamples, first))
+                names.push_back(name);
+        }
+        return draw(kind, names);
+    };
+    Family family;
+    for (const std::uint32_t kind : {kSamplerSobol, kSamplerIndependent}) {
+        const Words base = series(kind, {});
+        for (const auto& [what, step] : kSteps) {
+            const Words other = series(kind, step);
+            for (std::size_t c = 0; c < 4; ++c) {
+                const std::string name =
+                    fmt::format("{}, kind {}, components {} {}", what, kind, c / 2, c % 2);
+                double mean = 0.0;
+                double square = 0.0;
+                for (std::size_t place = 0; place < kPlaces; ++place) {
+                    const auto part = [&](const Words& words, std::size_t component) {
+                        return std::span(words[component]).subspan(place * kSamples, kSamples);
+                    };
+                    const double r = correlation(part(base, c / 2), part(other, c % 2));
+                    mean += r / kPlaces;
+                    square += r * r / kPlaces;
+                }
+                EXPECT_LT(std::sqrt(square), 1.5 / std::sqrt(kSamples)) << name;
+                const double deviation = std::sqrt((square - mean * mean) / (kPlaces - 1));
+                family.add(name, studentTwoSided(mean / deviation, kPlaces - 1));
+            }
+        }
+    }
+    family.expect(1e-4);
+}
+
+/// Over many places the same sample of two sequences falls evenly into the squares of (one, the other).
+TEST(Sampler, NeighboursAreJointlyUniform) {
+    constexpr std::uint32_t kPlaces = 1 << 14;
+    Family family;
+    for (const std::uint32_t kind : {kSamplerSobol, kSamplerIndependent}) {
+        const std::vector<Name> names = counted(&Name::seed, kPlaces, {5, 3, 4, 7});
+        const Words base = draw(kind, names);
+        for (const auto& [what, step] : kSteps) {
+            std::vector<Name> moved = names;
+            for (Name& name : moved)
+                name = {name.pixel + step.pixel, name.sample, name.dimension + step.dimension,
+                        name.seed + step.seed};
+            const Words other = draw(kind, moved);
+            for (std::size_t a = 0; a < 4; ++a) {
+                for (std::size_t b = 0; b < 4; ++b)
+                    family.add(fmt::format("{}, kind {}, numbers {} {}", what, kind, a, b),
+                               evenlyInSquares(base[a], other[b], 4));
+            }
+        }
+    }
+    family.expect(1e-4);
+}
+
+TEST(SamplerOracles, AllFunctions) {
+    const std::vector<std::uint32_t> a = randomWords(4096, 1), b = randomWords(4096, 2),
+                                     c = randomWords(4096, 3), d = randomWords(4096, 4);
+    EXPECT_ORACLES(sampler(), sampleDimension, (Budget{0, 0}), a, b, c);
+    EXPECT_ORACLES(sampler(), sampleChoice, (Budget{0, 0}), a, b, c, d);
+    for (const std::uint32_t kind : {kSamplerSobol, kSamplerIndependent}) {
+        const std::vector<std::uint32_t> kinds(a.size(), kind);
+        EXPECT_ORACLES(sampler(), sampleWords, (Budget{0, 0}), kinds, a, b, c, d);
+        EXPECT_ORACLES(sampler(), samplePair, (Budget{0, 0}), kinds, a, b, c, d);
     }
 }
 

@@ -1,0 +1,38 @@
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "tests/shader/harness/compiler.h"
+#include "tests/shader/inputs.h"
+#include "tests/support/run_kernel.h"
+
+// What the host writes to a buffer is what a kernel reads from it.
+
+namespace duolux::test {
+namespace {
+
+std::vector<std::uint32_t> readByKernel(const Buffer& buffer, std::uint32_t count) {
+    static const std::vector<std::uint32_t> kernel = compileKernel(std::string(kernelHeader()) + R"(
+        layout(local_size_x = 64) in;
+        layout(binding = 0, scalar) readonly buffer InputBlock { uint inputs[]; };
+        layout(binding = 1, scalar) writeonly buffer OutputBlock { uint outputs[]; };
+        layout(push_constant, scalar) uniform PushBlock { uint count; };
+        void main() {
+            uint i = gl_GlobalInvocationID.x;
+            if (i < count) outputs[i] = inputs[i];
+        })");
+    return runKernel<std::uint32_t>(kernel, {{0, &buffer}}, 1, count, count);
+}
+
+TEST(Upload, ThroughAStagingBufferGivesTheSame) {
+    const std::vector<std::uint32_t> words = randomWords(20000);
+    const std::span<const std::uint32_t> items(words);
+    const auto count = static_cast<std::uint32_t>(words.size());
+    const Buffer direct = Buffer::upload(device(), BufferUse::kStorage, items, "inputs");
+    const Buffer staged = Buffer::uploadStaged(device(), BufferUse::kStorage, std::as_bytes(items), "inputs");
+    EXPECT_EQ(readByKernel(direct, count), words);
+    EXPECT_EQ(readByKernel(staged, count), words);
+}
+
+}  // namespace
+}  // namespace duolux::test
