@@ -1,8 +1,8 @@
 // Owen-scrambled Sobol points.
 #include "shaders/lib/sobol.glsl"
 
-// Nested: bit k of the result is bit k of the number, flipped or not by what the seed makes of the bits below. Hence also
-// one-to-one.
+// Nested: bit k of the result is bit k of the number, flipped or not by what the seed makes of the bits below. Hence
+// also one-to-one.
 TEST(ScramblingFlipsBitsByLowerOnes) {
     uint x = randomUint();
     uint seed = randomUint();
