@@ -21,7 +21,7 @@ SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 no
     point.shadingNormal = point.geometricNormal;
     if (smoothNormals && (tri.materialFlags & kTriangleSmooth) != 0u) {
         vec3 smoothed = shadingNormal(triangle, barycentric);
-        point.shadingNormal = dot(smoothed, normal) * cosine > 0.0 ? -smoothed : smoothed;
+        point.shadingNormal = dot(smoothed, point.geometricNormal) < 0.0 ? -smoothed : smoothed;
     }
     point.position = pointOnTriangle(tri, barycentric) + point.geometricNormal * pointError(tri);
     return point;
