@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/shared/bvh_layout.h"
+#include "shaders/shared/path_layout.h"
+#include "tests/shader/inputs.h"
+#include "tests/shader/oracles.h"
+
+// Points on surfaces: the bound on their rounding errors at every scale, frames in double, and both oracles.
+
+namespace duolux::mirror::single {
+static twice::Triangle widen(const Triangle& t) {
+    return {glm::dvec3(t.v0), glm::dvec3(t.v1), glm::dvec3(t.v2), t.primitive, t.materialFlags};
+}
+static twice::SurfacePoint widen(const SurfacePoint& p) {
+    return {glm::dvec3(p.position), glm::dvec3(p.geometricNormal), glm::dvec3(p.shadingNormal)};
+}
+static std::vector<double> numbers(const SurfacePoint& p) {
+    return test::numbers(p.position, p.geometricNormal, p.shadingNormal);
+}
+}  // namespace duolux::mirror::single
+
+namespace duolux::mirror::twice {
+static std::vector<double> numbers(const SurfacePoint& p) {
+    return test::numbers(p.position, p.geometricNormal, p.shadingNormal);
+}
+}  // namespace duolux::mirror::twice
+
+DUOLUX_GLSL_TYPE(duolux::mirror::single::Triangle, "Triangle", "");
+DUOLUX_GLSL_TYPE(duolux::mirror::single::SurfacePoint, "SurfacePoint", "");
+
+namespace duolux::test {
+namespace {
+
+using mirror::single::SurfacePoint;
+using mirror::single::Triangle;
+
+const shared::DeviceNormals kCorners{{0x10002000u, 0xf0001800u, 0x0800e000u}, 0u};
+
+const ShaderLibrary& surface() {
+    static const ShaderLibrary library =
+        ShaderLibrary("shaders/lib/surface.glsl").texels("fetchNormalTexel", std::span(&kCorners, 1));
+    return library;
+}
+
+/// Rays that meet triangles: what surfacePoint takes.
+struct Hits {
+    std::vector<Triangle> triangles;
+    std::vector<glm::vec2> barycentrics;
+    std::vector<glm::vec3> normals, rays;
+};
+
+/// Scenes of a size from 1e-3 to 1e6 (of every power of two between), the triangles as large as the scene, or
+/// down to 2^-10 of it and somewhere off the origin. At corners, on edges, inside. Rays from both sides, many
+/// of them grazing.
+Hits hits(std::size_t n) {
+    const std::vector<float> sizes = randomFloats(n, std::log2(1e-3), std::log2(1e6), 1);
+    const std::vector<float> shrinks = randomFloats(n, -10.0, 0.0, 2);
+    const std::vector<glm::vec3> directions = randomDirections(5 * n, 3);
+    const std::vector<glm::vec2> us = randomSquare(n, 4);
+    Hits hits;
+    for (std::size_t i = 0; i < n; ++i) {
+        const float size = std::abs(sizes[i]);
+        const float shrink = size * std::abs(shrinks[i]);
+        const auto corner = [&](std::size_t c) {
+            return directions[5 * i + 3] * (i % 4 == 0 ? 0.0f : size) + directions[5 * i + c] * shrink;
+        };
+        const Triangle t{corner(0), corner(1), corner(2), 7u, i % 2 == 0 ? 3u : 3u | shared::kTriangleSmooth};
+        const glm::dvec3 across =
+            glm::cross(glm::dvec3(t.v1) - glm::dvec3(t.v0), glm::dvec3(t.v2) - glm::dvec3(t.v0));
+        if (glm::length(across) < 0.02 * static_cast<double>(shrink) * static_cast<double>(shrink)) continue;
+        glm::vec2 b = us[i].x + us[i].y > 1.0f ? 1.0f - us[i] : us[i];
+        if (i % 8 == 1)
+            b = glm::vec2(i / 8 % 2, i / 16 % 2) * glm::vec2(1, 1.0f - static_cast<float>(i / 8 % 2));
+        if (i % 8 == 2) b.x = 0.0f;
+        if (i % 8 == 3) b.y = 1.0f - b.x;
+        const glm::dvec3 normal = glm::normalize(across);
+        glm::dvec3 ray(directions[5 * i + 4]);
+        if (i % 3 == 0) {  // grazing: 1e-4 out of the plane
+            ray -= glm::dot(ray, normal) * normal;
+            ray = glm::normalize(ray) + (i % 2 == 0 ? 1e-4 : -1e-4) * normal;
+        }
+        hits.triangles.push_back(t);
+        hits.barycentrics.push_back(b);
+        hits.normals.emplace_back(normal);
+        hits.rays.emplace_back(glm::normalize(ray));
+    }
+    return hits;
+}
+
+std::vector<SurfacePoint> pointsOf(const Hits& h, std::uint32_t smooth) {
+    return surface().evaluate<SurfacePoint>("result = surfacePoint(x0, 0u, x1, x2, x3, x4 != 0u);",
+                                            h.triangles, h.barycentrics, h.normals, h.rays, smooth);
+}
+
+/// The same barycentric coordinates in double.
+glm::dvec3 exactPoint(const Triangle& t, const glm::vec2& barycentric) {
+    const glm::dvec2 b(barycentric);
+    return glm::dvec3(t.v0) * (1.0 - b.x - b.y) + glm::dvec3(t.v1) * b.x + glm::dvec3(t.v2) * b.y;
+}
+
+double largestCoordinate(const Triangle& t) {
+    double largest = 0.0;
+    for (const glm::vec3& v : {t.v0, t.v1, t.v2})
+        for (glm::length_t c = 0; c < 3; ++c)
+            largest = std::max(largest, static_cast<double>(std::abs(v[c])));
+    return largest;
+}
+
+/// 32 units of roundoff of the largest coordinate. What a point needs of that is less than a quarter: with u
+/// = 2^-24, three products (u each), the first weight (2 u), and two sums (2 u) of numbers that are no
+/// larger, along the normal sqrt(3) times as much.
+TEST(Surface, PointErrorBoundsTheRoundingOfPoints) {
+    const Hits h = hits(1 << 16);
+    const std::vector<glm::vec3> points =
+        surface().call<glm::vec3>("pointOnTriangle", h.triangles, h.barycentrics);
+    const std::vector<float> errors = surface().call<float>("pointError", h.triangles);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double bound = largestCoordinate(h.triangles[i]) * 32.0 * 0x1p-24;
+        ASSERT_NEAR(static_cast<double>(errors[i]), bound, 1e-6 * bound) << i;
+        const double off = glm::length(glm::dvec3(points[i]) - exactPoint(h.triangles[i], h.barycentrics[i]));
+        worst = std::max(worst, off / bound);
+    }
+    RecordProperty("worst", std::to_string(worst));
+    EXPECT_LT(worst, 0.25);
+    EXPECT_GT(worst, 0.03);  // the inputs do have rounding errors
+}
+
+/// In double, the position is on the ray's side of the triangle's plane, in all scales, by the error that was
+/// allowed for; and nowhere else than at the point that was hit.
+TEST(Surface, PositionIsOffTheSurfaceOnTheRaysSide) {
+    const Hits h = hits(1 << 16);
+    const std::vector<SurfacePoint> points = pointsOf(h, 0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Triangle& t = h.triangles[i];
+        const double error = largestCoordinate(t) * 32.0 * 0x1p-24;
+        const glm::dvec3 normal(h.normals[i]);
+        const double side = glm::dot(normal, glm::dvec3(h.rays[i])) < 0.0 ? 1.0 : -1.0;
+        const glm::dvec3 off = glm::dvec3(points[i].position) - exactPoint(t, h.barycentrics[i]);
+        ASSERT_EQ(points[i].geometricNormal, h.normals[i] * static_cast<float>(side)) << i;
+        ASSERT_GT(glm::dot(off, side * normal), 0.75 * error) << i;
+        ASSERT_LT(glm::length(off - side * error * normal), 0.25 * error) << i;
+    }
+}
+
+/// Coordinates in the frame, and back, against dot products with the axes in double; the way back is unit in
+/// double.
+TEST(Surface, FramesMatchDoublePrecision) {
+    const std::vector<glm::vec3> normals = randomDirections(1 << 14, 5);
+    const std::vector<glm::vec3> directions = randomDirections(1 << 14, 6);
+    const std::vector<glm::vec3> local = surface().call<glm::vec3>("toFrame", normals, directions);
+    const std::vector<glm::vec3> world = surface().call<glm::vec3>("fromFrame", normals, directions);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        // Space turned from z to the normal the short way; below the equator from -z, the second axis turned
+        // around.
+        const double side = normals[i].z < 0.0f ? -1.0 : 1.0;
+        const glm::dvec3 n(normals[i]);
+        const auto turned = [&](const glm::dvec3& e) {
+            return e - glm::dot(e, n) * (n + glm::dvec3(0.0, 0.0, side)) / (1.0 + std::abs(n.z));
+        };
+        const glm::dmat3 axes(turned({1.0, 0.0, 0.0}), side * turned({0.0, 1.0, 0.0}), n);
+        const glm::dvec3 d(directions[i]);
+        ASSERT_LT(glm::length(glm::dvec3(local[i]) - d * axes), 6e-7) << i;
+        ASSERT_LT(glm::length(glm::dvec3(world[i]) - axes * d), 6e-7) << i;
+        ASSERT_NEAR(glm::length(glm::dvec3(world[i])), 1.0, 2e-7) << i;
+    }
+}
+
+/// Positions in units of the triangle's size, so that one budget serves all.
+TEST(SurfaceOracles, AllFunctions) {
+    mirror::texels().normals = {{kCorners.octahedral[0], kCorners.octahedral[1], kCorners.octahedral[2], 0u}};
+    Hits h = hits(1 << 13);
+    for (Triangle& t : h.triangles) {
+        const float size = static_cast<float>(largestCoordinate(t));
+        for (glm::vec3* v : {&t.v0, &t.v1, &t.v2})
+            *v /= size;
+    }
+    const std::vector<std::uint32_t> indices(h.triangles.size(), 0u);
+    for (const std::uint32_t smooth : {0u, 1u}) {
+        expectOracles(
+            "surfacePoint", pointsOf(h, smooth), {1, 4e-7},
+            [&](const auto&... x) { return mirror::single::surfacePoint(x..., smooth != 0u); },
+            [&](const auto&... x) { return mirror::twice::surfacePoint(x..., smooth != 0u); }, h.triangles,
+            indices, h.barycentrics, h.normals, h.rays);
+    }
+    EXPECT_ORACLES(surface(), toFrame, (Budget{1, 6e-7}), h.normals, h.rays);
+    EXPECT_ORACLES(surface(), fromFrame, (Budget{1, 6e-7}), h.normals, h.rays);
+    // The quotient of two cosines, of which the one below is not so small that its rounding is all there is;
+    // and neither near 0, where single and double may fall on different sides.
+    std::vector<SurfacePoint> points;
+    std::vector<glm::vec3> wi;
+    for (std::size_t i = 0; i < h.rays.size(); ++i) {
+        const glm::dvec3 shading = glm::normalize(glm::dvec3(h.normals[i]) + 0.9 * glm::dvec3(h.rays[i]));
+        const glm::dvec3 w(h.rays[(i + 1) % h.rays.size()]);
+        if (std::abs(glm::dot(shading, w)) < 1e-3 || std::abs(glm::dot(glm::dvec3(h.normals[i]), w)) < 0.05)
+            continue;
+        points.push_back({glm::vec3(0.0f), h.normals[i], glm::vec3(shading)});
+        wi.emplace_back(w);
+    }
+    EXPECT_ORACLES(surface(), shadingAdjoint, (Budget{8, 1e-5}), points, wi);
+    mirror::texels() = {};
+}
+
+}  // namespace
+}  // namespace duolux::test

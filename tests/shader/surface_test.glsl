@@ -1,0 +1,163 @@
+// A point on a surface, its normals, and directions in its frame.
+#include "shaders/lib/surface.glsl"
+#include "tests/shader/frame_inputs.glsl"
+
+uvec4 texel;
+uint fetchedIndex;
+
+uvec4 fetchNormalTexel(uint index) {
+    fetchedIndex = index;
+    return texel;
+}
+
+// Normals at the corners that are up to 90 degrees from z, or with sign -1 from -z.
+void setCorners(float sign) {
+    for (int i = 0; i < 3; i++) {
+        vec2 e = vec2(randomFloat(-0.45, 0.45), randomFloat(-0.45, 0.45));
+        vec2 signs = vec2(e.x >= 0.0 ? 1.0 : -1.0, e.y >= 0.0 ? 1.0 : -1.0);
+        if (sign < 0.0) e = (1.0 - abs(e.yx)) * signs;
+        texel[i] = packSnorm2x16(e);
+    }
+    texel.w = randomUint();
+}
+
+vec2 randomBarycentric() {
+    vec2 u = randomVec2();
+    return u.x + u.y > 1.0 ? 1.0 - u : u;
+}
+
+Triangle randomTriangle(uint flags) {
+    vec3 a = randomVec3(-1.0, 1.0);
+    vec3 b = randomVec3(-1.0, 1.0);
+    return Triangle(a, b, randomVec3(-1.0, 1.0), randomUint(), flags);
+}
+
+// In the plane z = 0, its front above.
+Triangle flatTriangle(uint flags) {
+    return Triangle(vec3(-1.0, -1.0, 0.0), vec3(3.0, -1.0, 0.0), vec3(-1.0, 3.0, 0.0), 0u, flags);
+}
+
+// The side is the one that the ray comes from, however grazing it is.
+TEST(GeometricNormalIsOnTheRaysSide) {
+    float side = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
+    vec3 ray = normalize(vec3(randomFloat(-1.0, 1.0), 1.0, 0.0));
+    ray.z = -side * (testIndex() % 4u == 0u ? randomFloat(0.1, 1.0) : randomScale(-100.0, -1.0));
+    SurfacePoint point = surfacePoint(flatTriangle(0u), 0u, vec2(0.25), vec3(0.0, 0.0, 1.0), ray, true);
+    EXPECT_EQ(point.geometricNormal, vec3(0.0, 0.0, side));
+    EXPECT_EQ(point.shadingNormal, point.geometricNormal);
+    EXPECT_GT(point.position.z * side, 0.0);
+}
+
+TEST(PositionIsMovedOffByItsError) {
+    Triangle tri = randomTriangle(0u);
+    vec2 b = randomBarycentric();
+    vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+    vec3 ray = randomDirection();
+    SurfacePoint point = surfacePoint(tri, 0u, b, normal, ray, false);
+    vec3 expected = pointOnTriangle(tri, b) + pointError(tri) * (dot(ray, normal) < 0.0 ? normal : -normal);
+    EXPECT_NEAR(point.position, expected, 1.2e-7);
+}
+
+// Only if the triangle has smooth normals, and if they are asked for.
+TEST(SmoothNormalsAreUsedOnlyIfFlagged) {
+    setCorners(1.0);
+    vec3 ray = vec3(0.3, 0.2, -1.0);
+    vec3 normal = vec3(0.0, 0.0, 1.0);
+    vec2 b = randomBarycentric();
+    uint triangle = randomUint() & 0xffffffu;
+    uint material = randomUint() & kMaterialMask;
+    vec3 smoothed = shadingNormal(triangle, b);
+    Triangle smooth_ = flatTriangle(kTriangleSmooth | material);
+    EXPECT_EQ(surfacePoint(flatTriangle(material), triangle, b, normal, ray, true).shadingNormal, normal);
+    EXPECT_EQ(surfacePoint(smooth_, triangle, b, normal, ray, false).shadingNormal, normal);
+    fetchedIndex = 0u;
+    EXPECT_NEAR(surfacePoint(smooth_, triangle, b, normal, ray, true).shadingNormal, smoothed, 2e-7);
+    EXPECT_EQ(fetchedIndex, triangle * kNormalTexels);
+    EXPECT_EQ(surfacePoint(smooth_, triangle, b, normal, ray, true).geometricNormal, normal);
+}
+
+// Both normals are on the ray's side, whichever side the ray is on, and whichever the normals of the corners are on.
+TEST(BothNormalsAreOnOneSide) {
+    float side = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
+    float corners = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
+    setCorners(corners);
+    vec3 ray = vec3(randomFloat(-1.0, 1.0), randomFloat(-1.0, 1.0), -side * randomFloat(0.01, 1.0));
+    vec2 b = randomBarycentric();
+    vec3 smoothed = shadingNormal(0u, b);
+    SurfacePoint point = surfacePoint(flatTriangle(kTriangleSmooth), 0u, b, vec3(0.0, 0.0, 1.0), ray, true);
+    EXPECT_EQ(point.geometricNormal, vec3(0.0, 0.0, side));
+    EXPECT_GT(point.shadingNormal.z * side, 0.0);
+    EXPECT_NEAR(point.shadingNormal, smoothed * (side * corners), 2e-7);
+}
+
+// A ray along the surface, or nearly so that products underflow, has no side; the normals still agree on one.
+TEST(BothNormalsAreOnOneSideOfAGrazingRay) {
+    setCorners((randomUint() & 1u) == 0u ? 1.0 : -1.0);
+    float tiny = (randomUint() & 1u) == 0u ? 0.0 : randomScale(-126.0, -120.0);
+    vec3 ray = vec3(1.0, 0.0, (randomUint() & 1u) == 0u ? tiny : -tiny);
+    Triangle tri = flatTriangle(kTriangleSmooth);
+    SurfacePoint point = surfacePoint(tri, 0u, randomBarycentric(), vec3(0.0, 0.0, 1.0), ray, true);
+    EXPECT_EQ(abs(point.geometricNormal), vec3(0.0, 0.0, 1.0));
+    EXPECT_GT(dot(point.shadingNormal, point.geometricNormal), 0.0);
+    EXPECT_GT(point.position.z * point.geometricNormal.z, 0.0);
+}
+
+SurfacePoint pointWithNormals(vec3 geometric, vec3 shading) {
+    return SurfacePoint(vec3(0.0), geometric, shading);
+}
+
+// Normals 60 degrees apart: cosines are 1, 1/2, and 0 at 90 degrees from either.
+TEST_N(AdjointKnownAnswers, 1) {
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    vec3 tilted = vec3(0.8660254, 0.0, 0.5);
+    SurfacePoint point = pointWithNormals(z, tilted);
+    EXPECT_NEAR(shadingAdjoint(point, z), 0.5, 1e-6);
+    EXPECT_NEAR(shadingAdjoint(point, tilted), 2.0, 1e-6);
+    EXPECT_NEAR(shadingAdjoint(point, vec3(0.0, 0.6, 0.8)), 0.5, 1e-6);
+    // Seen by one of the normals only, by neither, or in the plane of one or both.
+    EXPECT_EQ(shadingAdjoint(point, vec3(-0.8, 0.0, 0.6)), 0.0);
+    EXPECT_EQ(shadingAdjoint(point, vec3(0.96, 0.0, -0.28)), 0.0);
+    EXPECT_EQ(shadingAdjoint(point, -z), 0.0);
+    EXPECT_EQ(shadingAdjoint(point, vec3(1.0, 0.0, 0.0)), 0.0);
+    EXPECT_EQ(shadingAdjoint(point, vec3(0.0, 1.0, 0.0)), 0.0);
+    EXPECT_EQ(shadingAdjoint(pointWithNormals(z, vec3(1.0, 0.0, 0.0)), vec3(0.0, 0.6, 0.8)), 0.0);
+    EXPECT_EQ(shadingAdjoint(pointWithNormals(z, z), vec3(0.0, 0.6, 0.8)), 1.0);
+}
+
+// |wi . Ns| / |wi . Ng| where both normals see wi, else 0 (Veach 1997, section 5.3): times f and the cosine to the
+// geometric normal it is what gathering does, f times the cosine to the shading normal.
+TEST(AdjointIsItsDefinition) {
+    vec3 geometric = randomDirection();
+    vec3 shading = normalize(geometric + 0.9 * randomDirection());
+    vec3 wi = randomDirection();
+    float cosGeometric = dot(geometric, wi);
+    float cosShading = dot(shading, wi);
+    float adjoint = shadingAdjoint(pointWithNormals(geometric, shading), wi);
+    bool seen = min(cosGeometric, cosShading) > 1e-6;
+    EXPECT_NEAR(adjoint * cosGeometric, seen ? cosShading : 0.0, 1.1e-6);
+    EXPECT_GE(adjoint, 0.0);
+    EXPECT_EQ(shadingAdjoint(pointWithNormals(geometric, geometric), wi), cosGeometric > 0.0 ? 1.0 : 0.0);
+}
+
+void expectFrame(vec3 n) {
+    vec3 a = randomDirection();
+    vec3 b = randomDirection();
+    vec3 t, s;
+    orthonormalBasis(n, t, s);
+    EXPECT_NEAR(toFrame(n, n), vec3(0.0, 0.0, 1.0), 6e-7);
+    EXPECT_NEAR(toFrame(n, t), vec3(1.0, 0.0, 0.0), 6e-7);
+    EXPECT_NEAR(toFrame(n, s), vec3(0.0, 1.0, 0.0), 6e-7);
+    EXPECT_NEAR(fromFrame(n, vec3(0.0, 0.0, 1.0)), n, 6e-7);
+    EXPECT_NEAR(fromFrame(n, toFrame(n, a)), a, 8e-7);
+    EXPECT_NEAR(toFrame(n, fromFrame(n, a)), a, 8e-7);
+    EXPECT_NEAR(dot(toFrame(n, a), toFrame(n, b)), dot(a, b), 8e-7);
+    EXPECT_NEAR(cross(toFrame(n, a), toFrame(n, b)), toFrame(n, cross(a, b)), 8e-7);
+}
+
+TEST_N(FramesAreThereAndBack, 8192) { expectFrame((testIndex() & 1u) == 0u ? randomDirection() : hardNormal()); }
+
+// What comes out of a frame is unit, however the roundings of what went in have added up.
+TEST(FromFrameIsUnit) {
+    vec3 w = randomDirection() * randomFloat(0.5, 2.0);
+    EXPECT_NEAR(length(fromFrame(hardNormal(), w)), 1.0, 3e-7);
+}
