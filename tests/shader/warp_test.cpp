@@ -58,8 +58,8 @@ TEST(Warp, UniformTriangleCoversTheTriangle) {
     constexpr int kCells = 64;
     std::vector<bool> seen(kCells * kCells);
     for (const glm::vec2 b : warp().call<glm::vec2>("uniformTriangle", unitSquare(256)))
-        seen[static_cast<std::size_t>(static_cast<int>(b.y * kCells) * kCells +
-                                      static_cast<int>(b.x * kCells))] = true;
+        seen.at(static_cast<std::size_t>(static_cast<int>(b.y * kCells) * kCells +
+                                         static_cast<int>(b.x * kCells))) = true;
     for (int y = 0; y < kCells; ++y) {
         for (int x = 0; x + y < kCells - 1; ++x)
             EXPECT_TRUE(seen[static_cast<std::size_t>(y * kCells + x)]) << x << ' ' << y;
