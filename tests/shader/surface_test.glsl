@@ -67,13 +67,13 @@ TEST(SmoothNormalsAreUsedOnlyIfFlagged) {
     uint triangle = randomUint() & 0xffffffu;
     uint material = randomUint() & kMaterialMask;
     vec3 smoothed = shadingNormal(triangle, b);
-    Triangle smooth_ = flatTriangle(kTriangleSmooth | material);
+    Triangle flagged = flatTriangle(kTriangleSmooth | material);
     EXPECT_EQ(surfacePoint(flatTriangle(material), triangle, b, normal, ray, true).shadingNormal, normal);
-    EXPECT_EQ(surfacePoint(smooth_, triangle, b, normal, ray, false).shadingNormal, normal);
+    EXPECT_EQ(surfacePoint(flagged, triangle, b, normal, ray, false).shadingNormal, normal);
     fetchedIndex = 0u;
-    EXPECT_NEAR(surfacePoint(smooth_, triangle, b, normal, ray, true).shadingNormal, smoothed, 2e-7);
+    EXPECT_NEAR(surfacePoint(flagged, triangle, b, normal, ray, true).shadingNormal, smoothed, 2e-7);
     EXPECT_EQ(fetchedIndex, triangle * kNormalTexels);
-    EXPECT_EQ(surfacePoint(smooth_, triangle, b, normal, ray, true).geometricNormal, normal);
+    EXPECT_EQ(surfacePoint(flagged, triangle, b, normal, ray, true).geometricNormal, normal);
 }
 
 // Both normals are on the ray's side, whichever side the ray is on, and whichever the normals of the corners are on.

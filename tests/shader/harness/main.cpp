@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ int main(int argc, char** argv) {
     if (!help) testing::InitGoogleTest(&argc, argv);  // takes its own options away
     CLI11_PARSE(app, argc, argv);
     if (!device.empty()) setenv("DUOLUX_DEVICE", device.c_str(), 1);
-    if (!sources.empty()) sourceRoots().insert(sourceRoots().begin(), sources);
+    if (!sources.empty()) sourceRoots().insert(sourceRoots().begin(), std::filesystem::absolute(sources));
     registerGlslTests(DUOLUX_GLSL_TESTS);
     if (!coverage.empty()) measureCoverage(DUOLUX_GLSL_LIBRARY, coverage);
     return RUN_ALL_TESTS();
