@@ -38,6 +38,14 @@ TEST(SampleAgreesWithPdfAndEvaluation) {
     EXPECT_ULP(s.weight * s.pdf, bsdfEvaluate(bsdf, wo, s.wi) * s.wi.z, 6.0);
 }
 
+// By Malley's method, so that the square's stratification is that of directions.
+TEST(DiffuseSamplesAreMalleys) {
+    vec2 u = randomVec2();
+    BsdfSample s = bsdfSample(randomBsdf(), above(randomDirection()), u);
+    EXPECT_NEAR(dot(s.wi.xy, s.wi.xy), u.x, 1.5e-6);
+    EXPECT_EQ(s.wi, cosineHemisphere(u));
+}
+
 // At the ends of the square: straight up, and at the horizon with a density that is small but not zero.
 TEST_N(SampleAgreesAtTheEnds, 4) {
     float last = 1.0 - 1.0 / 16777216.0;
