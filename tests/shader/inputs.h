@@ -27,6 +27,14 @@ inline std::vector<std::uint32_t> randomWords(std::size_t n, std::uint32_t seed 
     return words;
 }
 
+inline std::vector<glm::uvec4> randomWords4(std::size_t n, std::uint32_t seed = 1) {
+    const std::vector<std::uint32_t> words = randomWords(4 * n, seed);
+    std::vector<glm::uvec4> vectors;
+    for (std::size_t i = 0; i < words.size(); i += 4)
+        vectors.emplace_back(words[i], words[i + 1], words[i + 2], words[i + 3]);
+    return vectors;
+}
+
 /// Uniform in [0, 1), multiples of 2^-24.
 inline std::vector<glm::vec2> randomSquare(std::size_t n, std::uint32_t seed = 1) {
     const std::vector<std::uint32_t> words = randomWords(2 * n, seed);

@@ -18,16 +18,8 @@ const ShaderLibrary& rng() {
     return library;
 }
 
-std::vector<glm::uvec4> randomCounters(std::size_t n, std::uint32_t seed) {
-    const std::vector<std::uint32_t> words = randomWords(4 * n, seed);
-    std::vector<glm::uvec4> counters;
-    for (std::size_t i = 0; i < n; ++i)
-        counters.emplace_back(words[4 * i], words[4 * i + 1], words[4 * i + 2], words[4 * i + 3]);
-    return counters;
-}
-
 TEST(Rng, MatchesThePublishedGenerator) {
-    std::vector<glm::uvec4> inputs = randomCounters(4096, 1);
+    std::vector<glm::uvec4> inputs = randomWords4(4096, 1);
     for (std::uint32_t i = 0; i < 1000; ++i)
         inputs.emplace_back(i, i * 7919u, ~i, i << 20);
     const std::vector<glm::uvec4> outputs = rng().call<glm::uvec4>("pcg4d", inputs);
@@ -107,7 +99,7 @@ TEST(Rng, WordsAreUniformAndIndependent) {
 
 /// How often each output bit changes with an input bit, [input bit][output bit], over random inputs.
 std::vector<std::vector<double>> avalanche(std::size_t inputs) {
-    const std::vector<glm::uvec4> base = randomCounters(inputs, 2);
+    const std::vector<glm::uvec4> base = randomWords4(inputs, 2);
     std::vector<glm::uvec4> flipped;
     for (std::uint32_t bit = 0; bit < 128; ++bit) {
         for (glm::uvec4 v : base) {
@@ -146,7 +138,7 @@ TEST(Rng, EveryInputBitChangesHalfOfTheFloat) {
 }
 
 TEST(RngOracles, AllFunctions) {
-    const std::vector<glm::uvec4> counters = randomCounters(4096, 3);
+    const std::vector<glm::uvec4> counters = randomWords4(4096, 3);
     const std::vector<std::uint32_t> words = randomWords(4096, 4);
     std::vector<glm::uvec2> pairs;
     for (const glm::uvec4& c : counters)

@@ -65,10 +65,9 @@ const std::vector<std::pair<const char*, std::uint32_t Name::*>> kMembers{{"pixe
                                                                           {"seeds", &Name::seed}};
 
 TEST(Sampler, WordsAreThoseOfThePublishedGenerators) {
-    const std::vector<std::uint32_t> words = randomWords(4 * 2048, 1);
     std::vector<Name> names;
-    for (std::size_t i = 0; i < words.size(); i += 4)
-        names.push_back({words[i], words[i + 1], words[i + 2], words[i + 3]});
+    for (const glm::uvec4& v : randomWords4(2048))
+        names.push_back({v.x, v.y, v.z, v.w});
     const Words sobol = draw(kSamplerSobol, names);
     const Words independent = draw(kSamplerIndependent, names);
     for (std::size_t i = 0; i < names.size(); ++i) {

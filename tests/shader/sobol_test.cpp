@@ -20,14 +20,6 @@ const ShaderLibrary& sobol() {
     return library;
 }
 
-std::vector<glm::uvec4> randomKeys(std::size_t n, std::uint32_t seed) {
-    const std::vector<std::uint32_t> words = randomWords(4 * n, seed);
-    std::vector<glm::uvec4> keys;
-    for (std::size_t i = 0; i < n; ++i)
-        keys.emplace_back(words[4 * i], words[4 * i + 1], words[4 * i + 2], words[4 * i + 3]);
-    return keys;
-}
-
 std::vector<std::uint32_t> range(std::uint32_t first, std::uint32_t count) {
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), first);
@@ -108,7 +100,7 @@ TEST(Sobol, SeedsScrambleIndependently) {
 }
 
 TEST(Sobol, PairsMatchThePublishedConstruction) {
-    const std::vector<glm::uvec4> keys = randomKeys(4096, 4);
+    const std::vector<glm::uvec4> keys = randomWords4(4096, 4);
     std::vector<std::uint32_t> indices = randomWords(4096, 5);
     for (std::size_t i = 0; i < 2048; ++i)
         indices[i] >>= 16;
@@ -139,7 +131,7 @@ testing::AssertionResult isNet(std::span<const glm::uvec2> points, int m) {
 /// (0, 2)-sequence). Runs at the start, further on, and at the end of the indices.
 TEST(Sobol, EveryAlignedRunOfAnyPairIsANet) {
     constexpr std::uint32_t kPoints = 1 << 11;
-    for (const glm::uvec4& key : randomKeys(8, 6)) {
+    for (const glm::uvec4& key : randomWords4(8, 6)) {
         for (const std::uint32_t first : {0u, 5 * kPoints, 0u - kPoints}) {
             const std::vector<glm::uvec2> points =
                 sobol().call<glm::uvec2>("sobolPair", range(first, kPoints), key);
@@ -158,7 +150,7 @@ TEST(Sobol, EveryAlignedRunOfAnyPairIsANet) {
 TEST(Sobol, IntegratesBetterThanRandomNumbers) {
     const auto error = [&](std::uint32_t n) {
         double sum = 0.0;
-        const std::vector<glm::uvec4> keys = randomKeys(64, 7);
+        const std::vector<glm::uvec4> keys = randomWords4(64, 7);
         for (const glm::uvec4& key : keys) {
             double mean = 0.0;
             for (const glm::uvec2& p : sobol().call<glm::uvec2>("sobolPair", range(0, n), key)) {
@@ -179,7 +171,7 @@ TEST(Sobol, IntegratesBetterThanRandomNumbers) {
 TEST(SobolOracles, AllFunctions) {
     const std::vector<std::uint32_t> numbers = randomWords(4096, 8);
     const std::vector<std::uint32_t> seeds = randomWords(4096, 9);
-    const std::vector<glm::uvec4> keys = randomKeys(4096, 10);
+    const std::vector<glm::uvec4> keys = randomWords4(4096, 10);
     EXPECT_ORACLES(sobol(), owenScrambleReversed, (Budget{0, 0}), numbers, seeds);
     EXPECT_ORACLES(sobol(), sobolSecondReversed, (Budget{0, 0}), numbers);
     EXPECT_ORACLES(sobol(), sobolPair, (Budget{0, 0}), numbers, keys);
