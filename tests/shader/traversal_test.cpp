@@ -2,46 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
-#include <random>
 
-#include "host/bvh/wide_bvh.h"
-#include "tests/shader/trace_layout.h"
-#include "tests/support/run_kernel.h"
+#include "tests/shader/test_meshes.h"
+#include "tests/shader/traced_scene.h"
 
-namespace duolux::spirv {
-extern const std::span<const std::uint32_t> kTraceTest;
-}
+// Whole traversals against brute force: in double precision on the host, which says what is hit for certain,
+// and on the device by the same test of a triangle, which says it to the bit.
 
 namespace duolux::test {
 namespace {
-
-using shared::TestHit;
-using shared::TestRay;
-
-struct Traced {
-    WideBvh bvh;
-    std::vector<TestHit> hits;
-};
-
-Traced trace(const Geometry& geometry, const std::vector<TestRay>& rays, std::uint32_t mode) {
-    Traced out{buildWideBvh(geometry), {}};
-    std::vector<shared::DeviceTriangle> triangles;
-    for (std::uint32_t i = 0; i < out.bvh.triangles.size(); ++i) {
-        const glm::uvec3 index = geometry.triangles[out.bvh.triangles[i]];
-        triangles.push_back(
-            {geometry.positions[index.x], i, geometry.positions[index.y], 0, geometry.positions[index.z], 0});
-    }
-    const Buffer nodes =
-        Buffer::upload<shared::WideNode>(device(), BufferUse::kTexels, out.bvh.nodes, "nodes");
-    const Buffer triangleBuffer =
-        Buffer::upload<shared::DeviceTriangle>(device(), BufferUse::kTexels, triangles, "triangles");
-    const Buffer rayBuffer = Buffer::upload<TestRay>(device(), BufferUse::kStorage, rays, "rays");
-    const auto count = static_cast<std::uint32_t>(rays.size());
-    out.hits = runKernel<TestHit>(spirv::kTraceTest, {{0, &nodes}, {1, &triangleBuffer}, {2, &rayBuffer}}, 3,
-                                  shared::TestPush{count, mode, 0}, count);
-    return out;
-}
 
 /// Intersection in double precision (Moeller and Trumbore, 1997). `inside` is the smallest barycentric
 /// coordinate: well above 0 the ray hits for certain, well below it misses.
@@ -57,7 +28,7 @@ std::optional<ReferenceHit> referenceHit(const Geometry& geometry, std::size_t t
     const glm::dvec3 p = glm::cross(d, e2);
     const double det = glm::dot(e1, p);
     // Seen edge-on, or without area: neither a certain hit nor a certain miss.
-    if (std::abs(det) < 1e-5 * glm::length(e1) * glm::length(e2)) return std::nullopt;
+    if (std::abs(det) <= 1e-5 * glm::length(e1) * glm::length(e2)) return std::nullopt;
     const glm::dvec3 s = glm::dvec3(ray.origin) - a;
     const double u = glm::dot(s, p) / det;
     const glm::dvec3 q = glm::cross(s, e1);
@@ -69,13 +40,15 @@ constexpr double kEdge = 1e-4;      // barycentric coordinates nearer to 0 are u
 constexpr double kDistance = 1e-4;  // relative error of a distance, with the scene's size
 
 /// Compares nearest hits with brute force. Returns how many rays hit for certain.
-int compareNearest(const Geometry& geometry, const std::vector<TestRay>& rays, const Traced& traced) {
+int compareNearest(const TracedScene& scene, const std::vector<TestRay>& rays,
+                   const std::vector<TestHit>& hits) {
     int certainHits = 0;
     int failures = 0;
+    const Geometry& geometry = scene.geometry;
     const Bounds bounds = boundsOf(geometry);
     const double size = glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));
     for (std::size_t r = 0; r < rays.size() && failures < 10; ++r) {
-        double nearestCertain = rays[r].tMax;
+        double nearestCertain = static_cast<double>(rays[r].tMax);
         for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
             const auto hit = referenceHit(geometry, t, rays[r]);
             if (hit && hit->inside > kEdge && hit->t > static_cast<double>(rays[r].tMin) + kDistance * size) {
@@ -84,9 +57,9 @@ int compareNearest(const Geometry& geometry, const std::vector<TestRay>& rays, c
         }
         const bool certain = nearestCertain < static_cast<double>(rays[r].tMax);
         certainHits += certain ? 1 : 0;
-        const TestHit& hit = traced.hits[r];
+        const TestHit& hit = hits[r];
         const double tolerance = kDistance * (size + std::abs(nearestCertain));
-        if (hit.t < 0.0f) {
+        if (!hit.found()) {
             if (certain) ++failures, ADD_FAILURE() << "ray " << r << " missed a hit at " << nearestCertain;
             continue;
         }
@@ -95,7 +68,7 @@ int compareNearest(const Geometry& geometry, const std::vector<TestRay>& rays, c
             ADD_FAILURE() << "ray " << r << " hit at " << hit.t << ", behind " << nearestCertain;
         }
         // What it did hit must be there.
-        const auto own = referenceHit(geometry, traced.bvh.triangles[hit.primitive], rays[r]);
+        const auto own = referenceHit(geometry, scene.bvh.triangles[hit.primitive], rays[r]);
         if (own && (own->inside < -kEdge || std::abs(own->t - static_cast<double>(hit.t)) > tolerance)) {
             ++failures;
             ADD_FAILURE() << "ray " << r << " hit at " << hit.t << " where there is nothing (" << own->t
@@ -103,49 +76,6 @@ int compareNearest(const Geometry& geometry, const std::vector<TestRay>& rays, c
         }
     }
     return certainHits;
-}
-
-class Random {
-  public:
-    float uniform(float lower, float upper) {
-        return std::uniform_real_distribution<float>(lower, upper)(engine_);
-    }
-    glm::vec3 inBox(float size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-    glm::vec3 direction() {
-        glm::vec3 d;
-        do {
-            d = inBox(1.0f);
-        } while (glm::dot(d, d) > 1.0f || glm::dot(d, d) < 0.01f);
-        return glm::normalize(d);
-    }
-
-  private:
-    std::mt19937 engine_{12345};
-};
-
-void addTriangle(Geometry& geometry, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-    const auto base = static_cast<std::uint32_t>(geometry.positions.size());
-    geometry.positions.insert(geometry.positions.end(), {a, b, c});
-    geometry.triangles.push_back({base, base + 1, base + 2});
-    geometry.materials.push_back(0);
-}
-
-/// Triangles of very different sizes, some of them degenerate or coincident.
-Geometry soup(int count, float scale, glm::vec3 centre = glm::vec3(0.0f)) {
-    Random random;
-    Geometry geometry;
-    for (int i = 0; i < count; ++i) {
-        const glm::vec3 a = centre + scale * random.inBox(1.0f);
-        const float size = scale * (i % 10 == 0 ? 1.0f : (i % 3 == 0 ? 0.01f : 0.1f));
-        const glm::vec3 b = a + size * random.inBox(1.0f);
-        const glm::vec3 c = a + size * random.inBox(1.0f);
-        addTriangle(geometry, a, b, c);
-        if (i % 17 == 0) addTriangle(geometry, a, a, a);                              // a point
-        if (i % 19 == 0) addTriangle(geometry, a, b, a + 0.5f * (b - a));             // a line
-        if (i % 23 == 0) addTriangle(geometry, a, b, c);                              // twice the same
-        if (i % 29 == 0) addTriangle(geometry, a, {b.x, a.y, a.z}, {b.x, b.y, a.z});  // flat along an axis
-    }
-    return geometry;
 }
 
 std::vector<TestRay> randomRays(int count, float scale, glm::vec3 centre = glm::vec3(0.0f)) {
@@ -161,7 +91,7 @@ std::vector<TestRay> randomRays(int count, float scale, glm::vec3 centre = glm::
             direction[i / 4 % 3] = 0.0f;
             direction = glm::normalize(direction);
         }
-        rays.push_back({centre + scale * random.inBox(1.5f), 0.0f, direction, 1e30f});
+        rays.push_back({centre + scale * random.inBox(1.5f), 0.0f, direction, kFar});
     }
     return rays;
 }
@@ -170,19 +100,19 @@ class TraversalAtScale : public testing::TestWithParam<float> {};
 
 TEST_P(TraversalAtScale, NearestHitsMatchBruteForce) {
     const float scale = GetParam();
-    const Geometry geometry = soup(1500, scale);
+    const TracedScene scene(soup(1500, scale));
     const std::vector<TestRay> rays = randomRays(4000, scale);
-    const int hits = compareNearest(geometry, rays, trace(geometry, rays, shared::kTestNearest));
+    const int hits = compareNearest(scene, rays, scene.trace(rays));
     EXPECT_GT(hits, 1000);  // the comparison must have had something to compare
 }
 
-INSTANTIATE_TEST_SUITE_P(Scales, TraversalAtScale, testing::Values(1e-3f, 1.0f, 550.0f, 1e6f));
+INSTANTIATE_TEST_SUITE_P(Scales, TraversalAtScale, testing::Values(1e-9f, 1e-3f, 1.0f, 550.0f, 1e6f, 1e12f));
 
 TEST(Traversal, NearestHitsMatchBruteForceFarFromTheOrigin) {
     const glm::vec3 centre(1000.0f, -2000.0f, 500.0f);
-    const Geometry geometry = soup(1500, 10.0f, centre);
+    const TracedScene scene(soup(1500, 10.0f, centre));
     const std::vector<TestRay> rays = randomRays(4000, 10.0f, centre);
-    EXPECT_GT(compareNearest(geometry, rays, trace(geometry, rays, shared::kTestNearest)), 1000);
+    EXPECT_GT(compareNearest(scene, rays, scene.trace(rays)), 1000);
 }
 
 TEST(Traversal, TreesOfOneToNineTriangles) {
@@ -192,15 +122,18 @@ TEST(Traversal, TreesOfOneToNineTriangles) {
             const auto z = static_cast<float>(i);
             addTriangle(geometry, {-1, -1, z}, {1, -1, z}, {0, 1, z});
         }
-        const std::vector<TestRay> rays{{{0.1f, 0.0f, -1.0f}, 0.0f, {0, 0, 1}, 1e30f},
-                                        {{0.1f, 0.0f, 20.0f}, 0.0f, {0, 0, -1}, 1e30f},
-                                        {{0.1f, 0.0f, 20.0f}, 0.0f, {0, 0, 1}, 1e30f}};
-        const Traced traced = trace(geometry, rays, shared::kTestAllCrossings);
-        EXPECT_FLOAT_EQ(traced.hits[0].t, 1.0f);
-        EXPECT_FLOAT_EQ(traced.hits[1].t, 21.0f - static_cast<float>(count));
-        EXPECT_EQ(traced.hits[2].t, -1.0f);
-        EXPECT_EQ(traced.hits[0].crossings, static_cast<std::uint32_t>(count));
-        EXPECT_EQ(traced.hits[1].crossings, static_cast<std::uint32_t>(count));
+        const std::vector<TestRay> rays{{{0.1f, 0.0f, -1.0f}, 0.0f, {0, 0, 1}, kFar},
+                                        {{0.1f, 0.0f, 20.0f}, 0.0f, {0, 0, -1}, kFar},
+                                        {{0.1f, 0.0f, 20.0f}, 0.0f, {0, 0, 1}, kFar}};
+        const TracedScene scene(geometry);
+        const std::vector<TestHit> hits = scene.trace(rays);
+        EXPECT_FLOAT_EQ(hits[0].t, 1.0f);
+        EXPECT_FLOAT_EQ(hits[1].t, 21.0f - static_cast<float>(count));
+        EXPECT_FALSE(hits[2].found());
+        const std::vector<Walk> walks = walk(scene, rays);
+        EXPECT_EQ(walks[0].crossings, static_cast<std::uint32_t>(count));
+        EXPECT_EQ(walks[1].crossings, static_cast<std::uint32_t>(count));
+        EXPECT_EQ(walks[0].differences + walks[1].differences + walks[2].differences, 0u);
     }
 }
 
@@ -208,40 +141,45 @@ TEST(Traversal, RaysThatStartOnASurfaceDoNotHitItWhenItsDistanceIsZero) {
     Geometry geometry;
     addTriangle(geometry, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
     addTriangle(geometry, {-1, -1, 1}, {1, -1, 1}, {0, 1, 1});
-    const std::vector<TestRay> rays{{{0, 0, 0}, 0.0f, {0, 0, 1}, 1e30f}, {{0, 0, 1}, 0.0f, {0, 0, 1}, 1e30f}};
-    const Traced traced = trace(geometry, rays, shared::kTestNearest);
-    EXPECT_FLOAT_EQ(traced.hits[0].t, 1.0f);
-    EXPECT_EQ(traced.hits[1].t, -1.0f);
+    const std::vector<TestRay> rays{{{0, 0, 0}, 0.0f, {0, 0, 1}, kFar}, {{0, 0, 1}, 0.0f, {0, 0, 1}, kFar}};
+    const std::vector<TestHit> hits = TracedScene(geometry).trace(rays);
+    EXPECT_FLOAT_EQ(hits[0].t, 1.0f);
+    EXPECT_FALSE(hits[1].found());
 }
 
 TEST(Traversal, AnyHitAgreesWithNearestHitAndTheLargestDistance) {
-    const Geometry geometry = soup(1500, 1.0f);
+    const TracedScene scene(soup(1500, 1.0f));
     std::vector<TestRay> rays = randomRays(4000, 1.0f);
-    const Traced nearest = trace(geometry, rays, shared::kTestNearest);
-    const Traced any = trace(geometry, rays, shared::kTestAnyHit);
+    const std::vector<TestHit> nearest = scene.trace(rays);
+    const std::vector<TestHit> any = scene.trace(rays, {.anyHit = 1});
+    std::uint64_t nodes = 0, nodesOfAny = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        EXPECT_EQ(nearest.hits[i].t < 0.0f, any.hits[i].t < 0.0f) << i;
-        if (nearest.hits[i].t > 0.0f) rays[i].tMax = nearest.hits[i].t * (i % 2 == 0 ? 0.999f : 1.001f);
+        EXPECT_EQ(nearest[i].found(), any[i].found()) << i;
+        EXPECT_LE(nearest[i].t, any[i].t) << i;
+        nodes += nearest[i].nodes;
+        nodesOfAny += any[i].nodes;
+        if (nearest[i].found()) rays[i].tMax = nearest[i].t * (i % 2 == 0 ? 0.999f : 1.001f);
     }
-    const Traced shortened = trace(geometry, rays, shared::kTestAnyHit);
+    EXPECT_LT(nodesOfAny, nodes);  // the first hit ends the traversal
+    const std::vector<TestHit> shortened = scene.trace(rays, {.anyHit = 1});
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (nearest.hits[i].t > 0.0f) {
-            EXPECT_EQ(shortened.hits[i].t < 0.0f, i % 2 == 0) << i;
+        if (nearest[i].found()) {
+            EXPECT_EQ(shortened[i].found(), i % 2 != 0) << i;
         }
     }
 }
 
 /// Every surface along a ray is met exactly once, coincident ones included.
 TEST(Traversal, AllCrossingsAreMetOnce) {
-    const Geometry geometry = soup(400, 1.0f);
+    const TracedScene scene(soup(400, 1.0f));
     const std::vector<TestRay> rays = randomRays(2000, 1.0f);
-    const Traced traced = trace(geometry, rays, shared::kTestAllCrossings);
-    int crossings = 0;
+    const std::vector<Walk> walks = walk(scene, rays);
+    std::uint32_t crossings = 0;
     for (std::size_t r = 0; r < rays.size(); ++r) {
         std::uint32_t certain = 0;
         std::uint32_t possible = 0;
-        for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
-            const auto hit = referenceHit(geometry, t, rays[r]);
+        for (std::size_t t = 0; t < scene.geometry.triangles.size(); ++t) {
+            const auto hit = referenceHit(scene.geometry, t, rays[r]);
             if (!hit) {
                 ++possible;
             } else if (hit->t > -kDistance && hit->inside > -kEdge) {
@@ -249,46 +187,160 @@ TEST(Traversal, AllCrossingsAreMetOnce) {
                 if (hit->t > kDistance && hit->inside > kEdge) ++certain;
             }
         }
-        EXPECT_GE(traced.hits[r].crossings, certain) << r;
-        EXPECT_LE(traced.hits[r].crossings, possible) << r;
-        crossings += static_cast<int>(certain);
+        EXPECT_GE(walks[r].crossings, certain) << r;
+        EXPECT_LE(walks[r].crossings, possible) << r;
+        crossings += certain;
     }
-    EXPECT_GT(crossings, 500);
+    EXPECT_GT(crossings, 500u);
 }
 
-/// Rays at the edges and vertices of a closed mesh from inside never get out.
-TEST(Traversal, ClosedMeshDoesNotLeakAtItsEdges) {
-    // A closed latitude-longitude sphere.
-    constexpr int kRings = 24;
-    constexpr int kSegments = 48;
+// Scenes that trees find hard.
+
+Geometry coincident() {
     Geometry geometry;
-    const auto vertex = [](int ring, int segment) {
-        const double theta = M_PI * ring / kRings;
-        const double phi = 2.0 * M_PI * (segment % kSegments) / kSegments;
-        const double radius = ring == 0 || ring == kRings ? 0.0 : std::sin(theta);
-        return glm::vec3(radius * std::cos(phi), std::cos(theta), radius * std::sin(phi));
-    };
-    for (int ring = 0; ring < kRings; ++ring) {
-        for (int segment = 0; segment < kSegments; ++segment) {
-            const glm::vec3 a = vertex(ring, segment), b = vertex(ring, segment + 1);
-            const glm::vec3 c = vertex(ring + 1, segment), d = vertex(ring + 1, segment + 1);
-            if (ring > 0) addTriangle(geometry, a, b, c);
-            if (ring < kRings - 1) addTriangle(geometry, b, d, c);
+    for (int i = 0; i < 100; ++i)
+        addTriangle(geometry, {-1, -1, 0.25f}, {1, -0.5f, 0.0f}, {0, 1, -0.5f});
+    return geometry;
+}
+
+/// Grids in three planes along the axes: boxes without volume.
+Geometry flat() {
+    Geometry geometry;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < 100; ++i) {
+            glm::vec3 corner(0.125f * static_cast<float>(axis));
+            glm::vec3 edge1(0.0f), edge2(0.0f);
+            corner[(axis + 1) % 3] = 0.25f * static_cast<float>(i % 10) - 1.25f;
+            corner[(axis + 2) % 3] = 0.25f * static_cast<float>(i / 10) - 1.25f;
+            edge1[(axis + 1) % 3] = edge2[(axis + 2) % 3] = 0.25f;
+            addTriangle(geometry, corner, corner + edge1, corner + edge2);
         }
     }
+    return geometry;
+}
+
+Geometry needles() {
     Random random;
-    std::vector<TestRay> rays;
-    for (int i = 0; i < 200000; ++i) {
-        const glm::uvec3 tri = geometry.triangles[static_cast<std::size_t>(i) % geometry.triangles.size()];
-        const float s = i % 5 == 0 ? 0.0f : random.uniform(0.0f, 1.0f);
-        const glm::vec3 target = glm::mix(geometry.positions[tri.x], geometry.positions[tri.y], s);
-        const glm::vec3 origin = random.inBox(0.3f);
-        rays.push_back({origin, 0.0f, glm::normalize(target - origin), 1e30f});
+    Geometry geometry;
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 a = random.inBox(1.5f), b = random.inBox(1.5f);
+        addTriangle(geometry, a, b, 0.5f * (a + b) + 1e-3f * random.inBox(1.0f));
     }
-    const Traced traced = trace(geometry, rays, shared::kTestNearest);
-    const auto leaks =
-        std::count_if(traced.hits.begin(), traced.hits.end(), [](const TestHit& h) { return h.t < 0.0f; });
-    EXPECT_EQ(leaks, 0);
+    return geometry;
+}
+
+/// Of sizes from 2^-12 to 2^47 about one corner: the splits peel off one after the other.
+Geometry growing() {
+    Geometry geometry;
+    for (int i = 0; i < 120; ++i) {
+        const float x = std::ldexp(1.0f, i / 2 - 12);
+        addTriangle(geometry, {x, 0, 0}, {0, x, 0}, {0, 0, x * (1.0f + 0.1f * static_cast<float>(i % 2))});
+    }
+    return geometry;
+}
+
+Geometry single() {
+    Geometry geometry;
+    addTriangle(geometry, {-1, -1, 0}, {1, -1, 0.5f}, {0, 1, -0.5f});
+    return geometry;
+}
+
+struct HardScene {
+    const char* name;
+    Geometry (*geometry)();
+    float size;
+    glm::vec3 centre{0.0f};
+    std::uint32_t fewestCrossings = 500;
+};
+
+std::ostream& operator<<(std::ostream& out, const HardScene& scene) {
+    return out << scene.name;
+}
+
+class TraversalOf : public testing::TestWithParam<HardScene> {};
+
+/// All crossings, in order, and what no triangle tells of a ray that meets nothing: to the bit.
+TEST_P(TraversalOf, AllTrianglesAgreesToTheBit) {
+    const HardScene& hard = GetParam();
+    const TracedScene scene(hard.geometry());
+    std::vector<TestRay> rays = randomRays(2000, hard.size, hard.centre);
+    for (std::size_t i = 0; i < rays.size(); i += 5) {  // to a place where there is something
+        const glm::uvec3 t = scene.geometry.triangles[i % scene.geometry.triangles.size()];
+        const glm::vec3 target =
+            (scene.geometry.positions[t.x] + scene.geometry.positions[t.y] + scene.geometry.positions[t.z]) /
+            3.0f;
+        rays[i].direction = glm::normalize(target - rays[i].origin);
+    }
+    std::uint32_t crossings = 0, differences = 0;
+    for (const Walk& w : walk(scene, rays)) {
+        crossings += w.crossings;
+        differences += w.differences;
+    }
+    EXPECT_EQ(differences, 0u);
+    EXPECT_GT(crossings, hard.fewestCrossings);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, TraversalOf,
+    testing::Values(HardScene{"Soup", [] { return soup(400, 1.0f); }, 1.0f},
+                    HardScene{"FarSoup", [] { return soup(400, 1e6f, glm::vec3(-3e7f, 2e7f, 1e7f)); }, 1e6f,
+                              glm::vec3(-3e7f, 2e7f, 1e7f)},
+                    HardScene{"Coincident", coincident, 1.0f}, HardScene{"Flat", flat, 1.5f},
+                    HardScene{"Needles", needles, 1.5f, glm::vec3(0.0f), 50},
+                    HardScene{"Growing", growing, 2.0f}, HardScene{"Single", single, 1.0f}),
+    [](const auto& scene) { return scene.param.name; });
+
+/// Lanes leave the traversal and come back when others are done: with whatever thresholds, for the same hits.
+TEST(Traversal, LeavingAndResumingChangesNothing) {
+    const TracedScene scene(soup(400, 1.0f));
+    const std::vector<TestRay> rays = randomRays(3000, 1.0f);
+    for (std::uint32_t ordered = 0; ordered < 2; ++ordered) {
+        const std::vector<TestHit> expected = scene.trace(rays, {.ordered = ordered});
+        for (const auto& [leaveTraversal, leaveNodes] : {std::pair{0u, 0u}, {1u, 8u}, {8u, 1u}, {99u, 99u}}) {
+            const std::vector<TestHit> hits = scene.trace(
+                rays, {.ordered = ordered, .leaveTraversal = leaveTraversal, .leaveNodes = leaveNodes});
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                ASSERT_EQ(hits[i].t, expected[i].t) << i << ": " << leaveTraversal << ", " << leaveNodes;
+                ASSERT_TRUE(ordered == 0 || hits[i].primitive == expected[i].primitive) << i;
+                ASSERT_EQ(hits[i].triangle, hits[i].primitive);
+            }
+        }
+    }
+}
+
+/// The tree over emitters lies behind the other, and its triangles are copies that keep their primitives.
+TEST(Traversal, ASecondTreeIsTracedFromItsOwnRoot) {
+    const Geometry geometry = soup(600, 1.0f);
+    TracedScene scene(geometry);
+    std::vector<std::uint32_t> some, entryOf(geometry.triangles.size());
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); i += 3)
+        some.push_back(i);
+    for (std::uint32_t i = 0; i < scene.bvh.triangles.size(); ++i)
+        entryOf[scene.bvh.triangles[i]] = i;
+    const WideBvh second = buildWideBvh(geometry, some);
+    std::vector<std::uint32_t> primitives;
+    for (const std::uint32_t triangle : second.triangles)
+        primitives.push_back(entryOf[triangle]);
+    const auto root = static_cast<std::uint32_t>(scene.tree.nodes.size());
+    const auto firstCopy = static_cast<std::uint32_t>(scene.tree.triangles.size());
+    append(scene.tree, geometry, second, primitives);
+    DeviceTree alone;
+    append(alone, geometry, second, primitives);
+
+    const std::vector<TestRay> rays = randomRays(3000, 1.0f);
+    const std::vector<TestHit> hits = scene.trace(rays, {.ordered = 1, .root = root});
+    const std::vector<TestHit> expected = trace(traversalOf(alone), rays, {.ordered = 1});
+    int found = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(hits[i].t, expected[i].t);
+        ASSERT_EQ(hits[i].primitive, expected[i].primitive);
+        ASSERT_EQ(hits[i].found(), expected[i].found());
+        if (!hits[i].found()) continue;
+        ++found;
+        ASSERT_EQ(hits[i].triangle, expected[i].triangle + firstCopy);
+        ASSERT_EQ(scene.bvh.triangles[hits[i].primitive], second.triangles[expected[i].triangle]);
+    }
+    EXPECT_GT(found, 300);
 }
 
 }  // namespace

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "host/bvh/wide_bvh.h"
+#include "host/scene/scene.h"
+#include "tests/shader/harness/shader_function.h"
+
+// The traversal on the device, through the tree of a scene, and every triangle tested without it.
+
+namespace duolux::test {
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+inline constexpr float kFar = 1e30f;
+
+struct TestRay {
+    glm::vec3 origin;
+    float tMin;
+    glm::vec3 direction;
+    float tMax;
+    std::uint32_t afterPrimitive = kNone;
+};
+
+struct TestHit {
+    float t;  ///< the ray's tMax if there is none
+    std::uint32_t triangle, primitive;
+    glm::vec2 barycentric;
+    std::uint32_t nodes;  ///< visited
+
+    bool found() const { return triangle != kNone; }
+};
+
+struct TraceOptions {
+    std::uint32_t anyHit = 0, ordered = 0;
+    std::uint32_t leaveTraversal = 6, leaveNodes = 4;
+    std::uint32_t root = 0;
+};
+
+}  // namespace duolux::test
+
+DUOLUX_GLSL_TYPE(duolux::test::TestRay, "TestRay",
+                 "vec3 origin; float tMin; vec3 direction; float tMax; uint afterPrimitive;");
+DUOLUX_GLSL_TYPE(duolux::test::TestHit, "TestHit",
+                 "float t; uint triangle; uint primitive; vec2 barycentric; uint nodes;");
+DUOLUX_GLSL_TYPE(duolux::test::TraceOptions, "TraceOptions",
+                 "uint anyHit; uint ordered; uint leaveTraversal; uint leaveNodes; uint root;");
+
+namespace duolux::test {
+
+/// What the device has of a scene.
+struct DeviceTree {
+    std::vector<shared::WideNode> nodes;
+    std::vector<shared::DeviceTriangle> triangles;
+};
+
+/// `primitives`: of the leaves' triangles; they are numbered if there are none.
+inline void append(DeviceTree& tree, const Geometry& geometry, const WideBvh& bvh,
+                   const std::vector<std::uint32_t>& primitives = {}) {
+    const auto firstNode = static_cast<std::uint32_t>(tree.nodes.size());
+    const auto firstTriangle = static_cast<std::uint32_t>(tree.triangles.size());
+    for (shared::WideNode node : bvh.nodes) {
+        node.childBase += firstNode;
+        node.triangleBase += firstTriangle;
+        tree.nodes.push_back(node);
+    }
+    for (std::uint32_t i = 0; i < bvh.triangles.size(); ++i) {
+        const glm::uvec3 index = geometry.triangles[bvh.triangles[i]];
+        tree.triangles.push_back({geometry.positions[index.x], primitives.empty() ? i : primitives[i],
+                                  geometry.positions[index.y], 0, geometry.positions[index.z], 0});
+    }
+}
+
+/// Functions of the traversal on this tree; nodesFetched counts. A ray against all triangles, in the order of
+/// (distance, primitive), is a walk that knows no tree: closestOfAll.
+inline ShaderLibrary traversalOf(const DeviceTree& tree) {
+    ShaderLibrary library("shaders/lib/traverse.glsl");
+    library.define(R"(
+        uint nodesFetched = 0u;
+        uvec4 storedNodeTexel(uint index);
+        uvec4 fetchNodeTexel(uint index) {
+            nodesFetched += index % kNodeTexels == 0u ? 1u : 0u;
+            return storedNodeTexel(index);
+        }
+        void closestOfAll(uint count, inout Traversal r) {
+            for (uint i = 0u; i < count; i++) {
+                Triangle tri = fetchTriangle(i);
+                TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV);
+                bool after = h.t > r.tMin || (h.t == r.tMin && tri.primitive > r.afterPrimitive);
+                if (h.hit && after && (h.t < r.t || (h.t == r.t && tri.primitive < r.primitive))) {
+                    r.t = h.t;
+                    r.triangle = i;
+                    r.primitive = tri.primitive;
+                    r.barycentric = h.barycentric;
+                }
+            }
+        })");
+    library.texels<shared::WideNode>("storedNodeTexel", tree.nodes);
+    library.texels<shared::DeviceTriangle>("fetchTriangleTexel", tree.triangles);
+    return library;
+}
+
+inline std::vector<TestHit> trace(const ShaderLibrary& traversal, const std::vector<TestRay>& rays,
+                                  const TraceOptions& options = {}) {
+    return traversal.evaluate<TestHit>(R"(
+        Traversal r = traversalStart(x1.root, x0.origin, x0.direction, x0.tMin, x0.afterPrimitive, x0.tMax,
+                                     x1.anyHit != 0u);
+        while (traversalAlive(r)) traverse(r, x1.ordered != 0u, x1.leaveTraversal, x1.leaveNodes);
+        result = TestHit(r.t, r.triangle, r.primitive, r.barycentric, nodesFetched);)",
+                                       rays, options);
+}
+
+/// A scene whose tree is built by the library. Primitives are the leaves' triangles in order.
+struct TracedScene {
+    explicit TracedScene(Geometry mesh) : geometry(std::move(mesh)), bvh(buildWideBvh(geometry)) {
+        append(tree, geometry, bvh);
+    }
+    std::vector<TestHit> trace(const std::vector<TestRay>& rays, const TraceOptions& options = {}) const {
+        return test::trace(traversalOf(tree), rays, options);
+    }
+
+    Geometry geometry;
+    WideBvh bvh;
+    DeviceTree tree;
+};
+
+/// A ray walked over all it crosses, by the tree and by closestOfAll at once.
+struct Walk {
+    std::uint32_t crossings;
+    std::uint32_t differences;  ///< steps at which the two do not agree to the bit
+};
+
+}  // namespace duolux::test
+
+DUOLUX_GLSL_TYPE(duolux::test::Walk, "Walk", "uint crossings; uint differences;");
+
+namespace duolux::test {
+
+inline std::vector<Walk> walk(const TracedScene& scene, const std::vector<TestRay>& rays,
+                              const TraceOptions& options = {}) {
+    const auto count = static_cast<std::uint32_t>(scene.tree.triangles.size());
+    return traversalOf(scene.tree)
+        .evaluate<Walk>(R"(
+        result = Walk(0u, 0u);
+        float tMin = x0.tMin;
+        uint after = x0.afterPrimitive;
+        bool again = true;
+        while (again) {
+            Traversal all = traversalStart(0u, x0.origin, x0.direction, tMin, after, x0.tMax, false);
+            Traversal r = all;
+            while (traversalAlive(r)) traverse(r, true, x1.leaveTraversal, x1.leaveNodes);
+            closestOfAll(x2, all);
+            bool same = floatBitsToUint(r.t) == floatBitsToUint(all.t) && r.triangle == all.triangle &&
+                        r.primitive == all.primitive && r.barycentric == all.barycentric;
+            result.differences += same ? 0u : 1u;
+            again = all.triangle != kNoTriangle && same;
+            result.crossings += again ? 1u : 0u;
+            tMin = all.t;
+            after = all.primitive;
+        })",
+                        rays, options, count);
+}
+
+}  // namespace duolux::test
