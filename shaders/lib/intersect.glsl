@@ -37,10 +37,11 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     precise float v = ax * cy - ay * cx;
     precise float w = bx * ay - by * ax;
     float det = u + v + w;
-    float scale = 1.0 / det;
-    float t = (u * dot(a, direction) + v * dot(b, direction) + w * dot(c, direction)) * scale;
+    // Of the corners. Products of lengths would leave the range of a float sooner than those of areas do.
+    vec3 weights = vec3(u, v, w) * (1.0 / det);
+    float t = weights.x * dot(a, direction) + weights.y * dot(b, direction) + weights.z * dot(c, direction);
     bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
-    return TriangleHit(inside && det != 0.0, t, vec2(v, w) * scale);
+    return TriangleHit(inside && det != 0.0, t, vec2(weights.y, weights.z));
 }
 
 // The inverse of a direction component, large and finite where it is 0.
