@@ -126,7 +126,8 @@ struct TracedScene {
     DeviceTree tree;
 };
 
-/// A ray walked over all it crosses, by the tree and by closestOfAll at once.
+/// A ray walked over all it crosses, by the tree and by closestOfAll at once. (Lavapipe ends all loops of an
+/// invocation silently after 65,535 iterations: crossings times triangles must stay well below.)
 struct Walk {
     std::uint32_t crossings;
     std::uint32_t differences;  ///< steps at which the two do not agree to the bit

@@ -96,6 +96,7 @@ std::vector<TestRay> randomRays(int count, float scale, glm::vec3 centre = glm::
     return rays;
 }
 
+/// The smallest triangles of a soup have edges of a hundredth of its scale; their areas must be floats.
 class TraversalAtScale : public testing::TestWithParam<float> {};
 
 TEST_P(TraversalAtScale, NearestHitsMatchBruteForce) {
@@ -106,7 +107,8 @@ TEST_P(TraversalAtScale, NearestHitsMatchBruteForce) {
     EXPECT_GT(hits, 1000);  // the comparison must have had something to compare
 }
 
-INSTANTIATE_TEST_SUITE_P(Scales, TraversalAtScale, testing::Values(1e-9f, 1e-3f, 1.0f, 550.0f, 1e6f, 1e12f));
+INSTANTIATE_TEST_SUITE_P(Scales, TraversalAtScale,
+                         testing::Values(1e-15f, 1e-12f, 1e-3f, 1.0f, 550.0f, 1e6f, 1e12f, 1e15f, 1e18f));
 
 TEST(Traversal, NearestHitsMatchBruteForceFarFromTheOrigin) {
     const glm::vec3 centre(1000.0f, -2000.0f, 500.0f);
