@@ -53,7 +53,7 @@ constexpr const char* kRandom = R"(
         float phi = 6.2831853 * uniform01();
         return vec3(sqrt(max(0.0, 1.0 - z * z)) * vec2(cos(phi), sin(phi)), z);
     }
-    bool meetsSomething(Traversal r) {
+    bool meetsSomething(inout Traversal r) {
         while (traversalAlive(r)) traverse(r, false, 6u, 4u);
         return r.triangle != kNoTriangle;
     })";
@@ -96,7 +96,8 @@ TEST_P(ClosedMesh, DoesNotLeakAtItsEdges) {
         if (kind == 3u) target = mix(target, tri.v2, exp2(-24.0 * uniform01()));
         vec3 origin = x2.xyz + uniformDirection() * (uniform01() * x3);
         vec3 d = normalize(target - origin);
-        bool hit = meetsSomething(traversalStart(0u, origin, d, 0.0, kNoTriangle, 1e30, false));
+        Traversal r = traversalStart(0u, origin, d, 0.0, kNoTriangle, 1e30, false);
+        bool hit = meetsSomething(r);
         result.rays += 1u;
         result.leaks += hit ? 0u : 1u;
         if (!hit) result.origin = origin, result.direction = d;)",
@@ -116,6 +117,78 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ClosedMesh,
                                          Mesh{"FarDisplaced", [] { return displaced(icosphere(4), 0.2f); },
                                               2000000, 1.0f, glm::vec3(577.0f, -612.0f, 541.0f)}),
                          [](const auto& mesh) { return mesh.param.name; });
+
+/// Scales with a mesh about the origin, and the mesh far away.
+struct Place {
+    float scale;
+    glm::vec3 offset;  ///< in units of the scale
+};
+
+class RayOffset : public testing::TestWithParam<Place> {
+  protected:
+    /// Rays leave points of the mesh to the inside, half of them at grazing angles. `margin`: of barycentric
+    /// coordinates, to keep away from edges. selfHits: rays that meet first what is in the plane of their own
+    /// triangle.
+    static Leaks run(const Geometry& mesh, float margin, std::uint32_t rays) {
+        const Place& place = GetParam();
+        const TracedScene scene(moved(mesh, place.scale, place.scale * place.offset));
+        ShaderLibrary library = traversalOf(scene.tree);
+        library.define(
+            "#include \"shaders/lib/surface.glsl\"\nuvec4 fetchNormalTexel(uint i) { return uvec4(0u); }");
+        library.define(kRandom);
+        std::vector<std::uint32_t> seeds(rays / kRaysPerInvocation);
+        std::iota(seeds.begin(), seeds.end(), 1u);
+        return sum(library.evaluate<Leaks>(R"(
+            result = Leaks(0u, 0u, 0u, vec3(0.0), vec3(0.0));
+            state = x0 * 2654435769u;
+            for (uint i = 0u; i < 64u; i++) {
+                uint index = word() % x1;
+                Triangle tri = fetchTriangle(index);
+                vec2 b = vec2(uniform01(), uniform01());
+                b = x3 + (1.0 - 3.0 * x3) * (b.x + b.y > 1.0 ? 1.0 - b : b);
+                vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+                SurfacePoint point = surfacePoint(tri, index, b, normal, tri.v0 - x2.xyz, false);
+                vec3 d = uniformDirection();
+                float cosine = dot(d, point.geometricNormal);
+                if ((word() & 1u) == 0u) d -= point.geometricNormal * (cosine * (1.0 - exp2(-20.0 * uniform01())));
+                d = normalize(cosine < 0.0 ? d - 2.0 * dot(d, point.geometricNormal) * point.geometricNormal : d);
+                Traversal r = traversalStart(0u, point.position, d, 0.0, kNoTriangle, 1e30, false);
+                bool hit = meetsSomething(r);
+                result.rays += 1u;
+                result.leaks += hit ? 0u : 1u;
+                if (!hit) result.origin = point.position, result.direction = d;
+                Triangle other = fetchTriangle(hit ? r.triangle : index);
+                vec3 off = vec3(dot(other.v0 - tri.v0, normal), dot(other.v1 - tri.v0, normal),
+                                dot(other.v2 - tri.v0, normal));
+                float plane = max(abs(off.x), max(abs(off.y), abs(off.z)));
+                result.selfHits += hit && plane <= 0.1 * pointError(tri) ? 1u : 0u;
+            })",
+                                           seeds, static_cast<std::uint32_t>(scene.tree.triangles.size()),
+                                           glm::vec4(place.scale * place.offset, place.scale), margin));
+    }
+};
+
+/// All corners are obtuse: what moves off one triangle does not come near another.
+TEST_P(RayOffset, KeepsRaysInsideASphere) {
+    const Leaks leaks = run(icosphere(3), 0.0f, 200000);
+    EXPECT_EQ(leaks.leaks, 0u) << leaks.origin.x << " " << leaks.origin.y << " " << leaks.origin.z;
+    EXPECT_EQ(leaks.selfHits, 0u);
+}
+
+/// Right angles, and faces of many triangles in one plane. A point on an edge is on no side of the other face
+/// but by its rounding: points keep off edges by more than that.
+TEST_P(RayOffset, KeepsRaysInsideACubeAndOffCoplanarNeighbours) {
+    const Leaks leaks = run(gridCube(8), 0.01f, 200000);
+    EXPECT_EQ(leaks.leaks, 0u) << leaks.origin.x << " " << leaks.origin.y << " " << leaks.origin.z;
+    EXPECT_EQ(leaks.selfHits, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(ScalesAndPlaces, RayOffset,
+                         testing::Values(Place{1e-3f, glm::vec3(0.0f)}, Place{1.0f, glm::vec3(0.0f)},
+                                         Place{550.0f, glm::vec3(0.5f, 3.0f, -1.0f)},
+                                         Place{1e6f, glm::vec3(0.0f)},
+                                         Place{1e-3f, glm::vec3(577.0f, -612.0f, 541.0f)},
+                                         Place{1e6f, glm::vec3(-1000.0f, 30.0f, 0.1f)}));
 
 }  // namespace
 }  // namespace duolux::test
