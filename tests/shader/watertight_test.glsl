@@ -1,6 +1,6 @@
-// Closed meshes of 8 and 20 triangles, every ray against every triangle: nothing passes between triangles. The principle
-// is exact: the corners are projected once, to the same place for all triangles, and a difference of two rounded products
-// has the sign of the exact one, or is 0, which counts as inside.
+// Closed meshes of 8 and 20 triangles, every ray against every triangle: nothing passes between triangles. The
+// principle is exact: the corners are projected once, to the same place for all triangles, and a difference of two
+// rounded products has the sign of the exact one, or is 0, which counts as inside.
 #include "shaders/lib/intersect.glsl"
 
 // Octahedron: corners 2k and 2k + 1 on axis k. Icosahedron: the cyclic permutations of (0, +-1, +-golden ratio), faces
