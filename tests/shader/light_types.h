@@ -1,0 +1,68 @@
+#pragma once
+
+// Structures of the library on their way between host and device: their names in GLSL, the numbers they
+// consist of, and how those in single precision widen to those in double precision.
+
+#include <vector>
+
+#include "tests/shader/oracles.h"
+
+// NOLINTBEGIN(bugprone-macro-parentheses)
+/// A structure of the mirror that libraries declare, and its fields, those of `s`.
+#define DUOLUX_MIRROR_TYPE(Name, ...)                          \
+    DUOLUX_GLSL_TYPE(duolux::mirror::single::Name, #Name, ""); \
+    namespace duolux::mirror::single {                         \
+    inline std::vector<double> numbers(const Name& s) {        \
+        return duolux::test::numbers(__VA_ARGS__);             \
+    }                                                          \
+    }                                                          \
+    namespace duolux::mirror::twice {                          \
+    inline std::vector<double> numbers(const Name& s) {        \
+        return duolux::test::numbers(__VA_ARGS__);             \
+    }                                                          \
+    }                                                          \
+    static_assert(true)
+// NOLINTEND(bugprone-macro-parentheses)
+
+namespace duolux::mirror {
+
+namespace single {
+template <std::size_t N>
+std::vector<double> numbers(const Array<N>& a) {
+    return {a.items, a.items + N};
+}
+}  // namespace single
+namespace twice {
+template <std::size_t N>
+std::vector<double> numbers(const Array<N>& a) {
+    return {a.items, a.items + N};
+}
+}  // namespace twice
+
+}  // namespace duolux::mirror
+
+DUOLUX_MIRROR_TYPE(LightMatrix, s.m00, s.m01, s.m10, s.m11);
+DUOLUX_MIRROR_TYPE(Light, s.invisible, s.visible);
+DUOLUX_MIRROR_TYPE(Material, s.bsdf.diffuse, s.flags, s.emission, s.lightPdfArea);
+DUOLUX_MIRROR_TYPE(FilmSum, s.r, s.g, s.b);
+DUOLUX_MIRROR_TYPE(Gathered, s.light, s.lastBounce, s.previousBounce);
+
+namespace duolux::mirror::single {
+
+inline twice::LightMatrix widen(const LightMatrix& m) {
+    return {test::widen(m.m00), test::widen(m.m01), test::widen(m.m10), test::widen(m.m11)};
+}
+inline twice::Light widen(const Light& l) {
+    return {test::widen(l.invisible), test::widen(l.visible)};
+}
+inline twice::Material widen(const Material& m) {
+    return {{test::widen(m.bsdf.diffuse)}, m.flags, widen(m.emission), test::widen(m.lightPdfArea)};
+}
+inline twice::FilmSum widen(const FilmSum& s) {
+    return {s.r, s.g, s.b};
+}
+inline twice::Gathered widen(const Gathered& g) {
+    return {widen(g.light), test::widen(g.lastBounce), test::widen(g.previousBounce)};
+}
+
+}  // namespace duolux::mirror::single
