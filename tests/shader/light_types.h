@@ -45,6 +45,8 @@ DUOLUX_MIRROR_TYPE(LightMatrix, s.m00, s.m01, s.m10, s.m11);
 DUOLUX_MIRROR_TYPE(Light, s.invisible, s.visible);
 DUOLUX_MIRROR_TYPE(Material, s.bsdf.diffuse, s.flags, s.emission, s.lightPdfArea);
 DUOLUX_MIRROR_TYPE(FilmSum, s.r, s.g, s.b);
+DUOLUX_MIRROR_TYPE(LightTriangle, s.v0, s.v1, s.v2, s.material, s.positionError);
+DUOLUX_MIRROR_TYPE(LightSample, s.position, s.normal, s.material, s.positionError);
 DUOLUX_MIRROR_TYPE(Gathered, s.light, s.lastBounce, s.previousBounce);
 
 namespace duolux::mirror::single {

@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/shader/layout_words.h"
+#include "tests/shader/light_types.h"
+
+DUOLUX_MIRROR_TYPE(Triangle, s.v0, s.v1, s.v2, s.primitive, s.materialFlags);
+
+// Records in texels: sentinels that the host writes into every field come out of the library's fetch
+// functions in the field of the same meaning. Several records, so that their stride counts.
+
+namespace duolux::test {
+namespace {
+
+constexpr std::size_t kRecords = 4;
+
+/// What words of a record hold, as the numbers that the device returns: by field, its name without index.
+template <typename S>
+std::vector<double> sentinelNumbers(std::size_t record, const std::vector<std::string>& fields) {
+    std::vector<double> out;
+    const std::vector<LayoutWord> words = layoutWords<S>();
+    for (const std::string& field : fields) {
+        for (std::size_t w = 0; w < words.size(); ++w) {
+            if (words[w].name != field && !words[w].name.starts_with(field + ".")) continue;
+            const std::uint32_t bits = sentinel(record, w);
+            out.push_back(words[w].isFloat ? static_cast<double>(std::bit_cast<float>(bits))
+                                           : static_cast<double>(bits));
+        }
+    }
+    return out;
+}
+
+std::vector<std::uint32_t> recordIndices() {
+    return {0, 1, 2, 3};
+}
+
+TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
+    using mirror::single::LightMatrix;
+    using mirror::single::Material;
+    const auto records = sentinels<shared::DeviceMaterial>(kRecords);
+    ShaderLibrary library("shaders/lib/material.glsl");
+    library.texels("fetchMaterialTexel", std::span(std::as_const(records)));
+    const auto materials = library.call<Material>("fetchMaterial", recordIndices());
+    const auto opaque = library.call<LightMatrix>("fetchOpaque", recordIndices());
+    const auto transparent = library.call<LightMatrix>("fetchTransparent", recordIndices());
+    for (std::size_t i = 0; i < kRecords; ++i) {
+        const auto expected = [&](const std::vector<std::string>& fields) {
+            return sentinelNumbers<shared::DeviceMaterial>(i, fields);
+        };
+        EXPECT_EQ(numbers(materials[i]),
+                  expected({"diffuse", "flags", "invisibleEmission", "visibleEmission", "lightPdfArea"}));
+        // m00, m01, m10, m11 in xyz; w is padding.
+        std::vector<std::string> entries[2];
+        for (int entry = 0; entry < 4; ++entry) {
+            for (const char component : {'x', 'y', 'z'}) {
+                entries[0].push_back(fmt::format("opaque[{}].{}", entry, component));
+                entries[1].push_back(fmt::format("transparent[{}].{}", entry, component));
+            }
+        }
+        EXPECT_EQ(numbers(opaque[i]), expected(entries[0]));
+        EXPECT_EQ(numbers(transparent[i]), expected(entries[1]));
+    }
+}
+
+TEST(RecordLayout, LightsAreFetchedFieldByField) {
+    using mirror::single::LightTriangle;
+    const auto records = sentinels<shared::DeviceLight>(kRecords);
+    ShaderLibrary library("shaders/lib/lights.glsl");
+    library.texels("fetchLightTexel", std::span(std::as_const(records)));
+    const auto lights = library.call<LightTriangle>("fetchLight", recordIndices());
+    for (std::size_t i = 0; i < kRecords; ++i)
+        EXPECT_EQ(numbers(lights[i]),
+                  sentinelNumbers<shared::DeviceLight>(i, {"v0", "v1", "v2", "material", "positionError"}));
+}
+
+// The alias table's part of a light: entry 1 of 4 keeps itself below its threshold, else its alias is taken.
+TEST(RecordLayout, AliasTableIsReadFieldByField) {
+    using mirror::single::LightSample;
+    auto records = sentinels<shared::DeviceLight>(kRecords);
+    for (std::uint32_t i = 0; i < kRecords; ++i) {
+        records[i].v0 = glm::vec3(0.0f);
+        records[i].v1 = glm::vec3(1.0f, 0.0f, 0.0f);
+        records[i].v2 = glm::vec3(0.0f, 1.0f, 0.0f);
+        records[i].material = 100 + i;
+        records[i].threshold = 0.125f * static_cast<float>(i + 1);
+        records[i].alias = (i + 2) % 4;
+    }
+    ShaderLibrary library("shaders/lib/lights.glsl");
+    library.texels("fetchLightTexel", std::span(std::as_const(records)));
+    std::vector<glm::uvec2> us;
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < kRecords; ++i) {
+        const std::uint32_t edge = i * 0x40000000u + (i + 1) * 0x08000000u;  // (i + threshold) / 4
+        us.insert(us.end(), {{edge - 0x100u, 0u}, {edge + 0x100u, 0u}});
+        expected.insert(expected.end(), {100 + i, 100 + (i + 2) % 4});
+    }
+    const auto samples = library.call<LightSample>("sampleLight", 4u, us);
+    for (std::size_t i = 0; i < us.size(); ++i)
+        EXPECT_EQ(samples[i].material, expected[i]) << i;
+}
+
+TEST(RecordLayout, TrianglesAreFetchedFieldByField) {
+    using mirror::single::Triangle;
+    const auto records = sentinels<shared::DeviceTriangle>(kRecords);
+    ShaderLibrary library("shaders/lib/traverse.glsl");
+    library.texels("fetchTriangleTexel", std::span(std::as_const(records)));
+    library.define("uvec4 fetchNodeTexel(uint index) { return uvec4(0u); }");
+    const auto triangles = library.call<Triangle>("fetchTriangle", recordIndices());
+    for (std::size_t i = 0; i < kRecords; ++i)
+        EXPECT_EQ(numbers(triangles[i]), sentinelNumbers<shared::DeviceTriangle>(
+                                             i, {"v0", "v1", "v2", "primitive", "materialFlags"}));
+}
+
+// Octahedral words of the six axes, by hand: vertex k of record i has axis i + k.
+TEST(RecordLayout, NormalsAreFetchedVertexByVertex) {
+    const std::array<std::uint32_t, 6> words{0x00007fffu, 0x7fff0000u, 0x00000000u,
+                                             0x00008001u, 0x80010000u, 0x7fff7fffu};
+    const std::array<glm::vec3, 6> axes{
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
+    std::vector<shared::DeviceNormals> records;
+    std::vector<std::uint32_t> triangles;
+    std::vector<glm::vec2> barycentrics;
+    std::vector<glm::vec3> expected;
+    for (std::uint32_t i = 0; i < kRecords; ++i) {
+        records.push_back({{words[i], words[i + 1], words[i + 2]}, 0x12345678u});
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            triangles.push_back(i);
+            barycentrics.emplace_back(k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
+            expected.push_back(axes[i + k]);
+        }
+    }
+    ShaderLibrary library("shaders/lib/normals.glsl");
+    library.texels("fetchNormalTexel", std::span(std::as_const(records)));
+    const auto normals = library.call<glm::vec3>("shadingNormal", triangles, barycentrics);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_LT(glm::length(normals[i] - expected[i]), 1e-6f) << i;
+}
+
+/// A node whose every byte is its own: units of 1, 2 and 1/2, children apart from each other along all axes.
+/// Even slots hold nodes, odd ones leaves.
+shared::WideNode probedNode() {
+    shared::WideNode node{};
+    const std::array<float, 3> origin{-100.0f, 20.0f, 3.0f};
+    const std::array<std::uint8_t, 3> exponent{127, 128, 126};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.origin[axis] = origin[axis];
+        node.exponent[axis] = exponent[axis];
+        for (std::size_t slot = 0; slot < 8; ++slot) {
+            // Along every axis the children have another order.
+            const std::size_t place = (slot * (2 * axis + 1) + axis) % 8;
+            node.lower[axis][slot] = static_cast<std::uint8_t>(5 + 31 * place + axis);
+            node.upper[axis][slot] = static_cast<std::uint8_t>(5 + 31 * place + axis + 9 + slot);
+        }
+    }
+    node.innerMask = 0x55;
+    node.childBase = 0x00c0ffeeu;
+    node.triangleBase = 0x00abcdefu;
+    for (std::uint32_t slot = 0; slot < 8; ++slot) {
+        const std::uint32_t triangles = (1u << (1 + slot / 2 % 3)) - 1;  // unary, 1 to 3
+        const std::uint32_t meta =
+            slot % 2 == 0 ? shared::kMetaInner | (24 + slot) : triangles << 5 | 2 * slot;
+        node.meta[slot] = static_cast<std::uint8_t>(meta);
+    }
+    return node;
+}
+
+/// A ray along an axis through the middle of a child, and what visiting the node has to leave.
+struct NodeProbes {
+    std::vector<glm::vec3> origin, direction;
+    std::vector<float> tMin, tMax;
+    std::vector<glm::uvec4> expected;  // groupBase, groupMask, triangleBase, triangleMask; 0: nothing hit
+};
+
+void probeChild(NodeProbes& probes, const shared::WideNode& node, std::uint32_t slot, int axis, float sign) {
+    glm::vec3 unit, lower, upper;
+    for (int a = 0; a < 3; ++a) {
+        const auto k = static_cast<std::size_t>(a);
+        unit[a] = std::ldexp(1.0f, node.exponent[k] - 127);
+        lower[a] = node.origin[k] + unit[a] * static_cast<float>(node.lower[k][slot]);
+        upper[a] = node.origin[k] + unit[a] * static_cast<float>(node.upper[k][slot]);
+    }
+    glm::vec3 direction(0.0f);
+    direction[axis] = sign;
+    glm::vec3 origin = 0.5f * (lower + upper);
+    const float entry = sign > 0.0f ? lower[axis] : upper[axis];
+    const float leave = sign > 0.0f ? upper[axis] : lower[axis];
+    origin[axis] = node.origin[static_cast<std::size_t>(axis)] - sign * 1000.0f;
+    const float near = std::abs(entry - origin[axis]), far = std::abs(leave - origin[axis]);
+    const float step = 0.25f * unit[axis];  // a quarter of what one in a byte makes
+    const std::uint32_t octant = (axis == 0 && sign < 0.0f ? 0u : 4u) | (axis == 1 && sign < 0.0f ? 0u : 2u) |
+                                 (axis == 2 && sign < 0.0f ? 0u : 1u);
+    glm::uvec4 hit(0u, 0u, node.triangleBase, (node.meta[slot] >> 5u) << (node.meta[slot] & 31u));
+    if (slot % 2 == 0)
+        hit = {node.childBase, 1u << (24 + (slot ^ octant)) | node.innerMask, node.triangleBase, 0};
+    const auto add = [&](float tMin, float tMax, bool hits) {
+        probes.origin.push_back(origin);
+        probes.direction.push_back(direction);
+        probes.tMin.push_back(tMin);
+        probes.tMax.push_back(tMax);
+        probes.expected.push_back(hits ? hit : glm::uvec4(0u, 0u, node.triangleBase, 0u));
+    };
+    // The intervals that just fail to reach the planes of the child's box, and that just do.
+    add(0.0f, near - step, false);
+    add(0.0f, near + step, true);
+    add(far + step, 1e30f, false);
+    add(far - step, 1e30f, true);
+}
+
+TEST(RecordLayout, NodesAreVisitedByteByByte) {
+    const std::vector<shared::WideNode> nodes{{}, {}, probedNode()};
+    NodeProbes probes;
+    for (std::uint32_t slot = 0; slot < 8; ++slot) {
+        for (int axis = 0; axis < 3; ++axis) {
+            probeChild(probes, nodes[2], slot, axis, 1.0f);
+            probeChild(probes, nodes[2], slot, axis, -1.0f);
+        }
+    }
+    ShaderLibrary library("shaders/lib/traverse.glsl");
+    library.texels("fetchNodeTexel", std::span(nodes));
+    library.define("uvec4 fetchTriangleTexel(uint index) { return uvec4(0u); }");
+    // Where no inner child is hit there is no group, and its base means nothing.
+    const auto seen = library.evaluate<glm::uvec4>(
+        "Traversal r = traversalStart(2u, x0, x1, x2, 0u, x3, false); visitNode(r);"
+        "bool group = r.groupMask > 0x00ffffffu;"
+        "result = uvec4(group ? uvec2(r.groupBase, r.groupMask) : uvec2(0u), r.triangleBase, "
+        "r.triangleMask);",
+        probes.origin, probes.direction, probes.tMin, probes.tMax);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        EXPECT_EQ(seen[i], probes.expected[i])
+            << "slot " << i / 24 << ", axis " << i / 8 % 3 << ", probe " << i % 8;
+}
+
+}  // namespace
+}  // namespace duolux::test
