@@ -112,8 +112,8 @@ TEST(TransposeReversesProducts) {
     EXPECT_EQ(off(transposed(lightMultiply(a, b)), lightMultiply(transposed(b), transposed(a))), 0.0);
 }
 
-// A path W = T O T from the camera, multiplied from the right, collects E; a particle that brings E is multiplied by the
-// same matrices from the left, in the order in which it meets them. Both show the row d of it.
+// A path W = T O T from the camera, multiplied from the right, collects E; a particle that brings E is multiplied by
+// the same matrices from the left, in the order in which it meets them. Both show the row d of it.
 TEST(GatheringAndShootingGiveTheSame) {
     LightMatrix first = randomMatrix();
     LightMatrix second = randomMatrix();

@@ -1,0 +1,378 @@
+#include "host/gpu/lights.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/shader/density.h"
+#include "tests/shader/light_types.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/statistics.h"
+
+// Points on emitters: how often each is picked, where on it, and what a particle that starts there carries.
+
+namespace duolux::test {
+namespace {
+
+using mirror::single::LightSample;
+using reference::Vec3;
+
+/// Emitting triangles of all sizes and brightnesses, each of a material of its own, among others that do not
+/// emit; every third emits on both sides.
+Scene randomEmitters(std::size_t count, std::uint32_t seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<float> uniform;
+    const auto vector = [&] { return glm::vec3(uniform(engine), uniform(engine), uniform(engine)); };
+    SceneBuilder builder;
+    const std::uint32_t dark = builder.add({});
+    for (std::size_t i = 0; i < count; ++i) {
+        Material material;
+        const float bright = std::exp2(6.0f * uniform(engine));
+        material.emission = {bright * vector(), bright * vector(), i % 3 == 0 ? Sides::kBoth : Sides::kFront};
+        const std::uint32_t index = builder.add(material);
+        const glm::vec3 corner = 10.0f * vector();
+        const float size = std::exp2(4.0f * uniform(engine) - 4.0f);
+        builder.triangle(corner, corner + size * vector(), corner + size * vector(), index);
+        if (i % 4 == 1) builder.triangle(corner, vector(), vector(), dark);
+    }
+    return builder.scene;
+}
+
+struct Emitter {
+    Vec3 v0, v1, v2;
+    double area;
+    glm::dvec3 power;  ///< W per channel, both components, over the sides that emit
+    double chance;     ///< of being picked, by area and brightness of both components
+};
+
+/// In the order of the triangles, in double precision; not by the table.
+std::vector<Emitter> emittersOf(const Scene& scene) {
+    std::vector<Emitter> out;
+    double total = 0.0;
+    for (std::size_t i = 0; i < scene.geometry.triangles.size(); ++i) {
+        const Emission& e = scene.materials[scene.geometry.materials[i]].emission;
+        if (!e.any()) continue;
+        const auto corner = [&](int k) {
+            return Vec3(scene.geometry.positions[scene.geometry.triangles[i][k]]);
+        };
+        Emitter emitter{corner(0), corner(1), corner(2), 0.0, {}, 0.0};
+        emitter.area = 0.5 * glm::length(glm::cross(emitter.v1 - emitter.v0, emitter.v2 - emitter.v0));
+        emitter.power = (glm::dvec3(e.invisible) + glm::dvec3(e.visible)) * emitter.area * std::numbers::pi *
+                        (e.sides == Sides::kBoth ? 2.0 : 1.0);
+        total += emitter.power.x + emitter.power.y + emitter.power.z;
+        out.push_back(emitter);
+    }
+    for (Emitter& e : out)
+        e.chance = (e.power.x + e.power.y + e.power.z) / total;
+    return out;
+}
+
+ShaderLibrary lightsOf(const std::vector<shared::DeviceLight>& lights) {
+    ShaderLibrary library("shaders/lib/lights.glsl");
+    library.texels("fetchLightTexel", std::span(lights));
+    return library;
+}
+
+std::vector<glm::uvec2> randomWords(std::size_t count, std::uint32_t seed) {
+    std::mt19937 engine(seed);
+    std::vector<glm::uvec2> us(count);
+    for (glm::uvec2& u : us)
+        u = {static_cast<std::uint32_t>(engine()), static_cast<std::uint32_t>(engine())};
+    return us;
+}
+
+constexpr double kAlpha = 1e-4;  // of each family below
+
+// Chi-square over the emitters, of 52 points each or many more; 5 tests, level 1e-4 of all.
+TEST(SampleLight, PicksEmittersByPower) {
+    for (const std::size_t count : {1u, 2u, 7u, 1000u, 20011u}) {
+        const Scene scene = randomEmitters(count, 17);
+        const std::vector<Emitter> emitters = emittersOf(scene);
+        const LightTable table = buildLightTable(scene, true);
+        ASSERT_EQ(table.lights.size(), count);
+        const auto samples = lightsOf(table.lights)
+                                 .call<LightSample>("sampleLight", static_cast<std::uint32_t>(count),
+                                                    randomWords(count > 1000 ? 1 << 20 : 1 << 17, 5));
+        std::vector<double> observed(count), expected(count);
+        for (const LightSample& s : samples) {
+            ASSERT_TRUE(s.material >= 1 && s.material <= count);
+            observed[s.material - 1] += 1.0;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            expected[i] = emitters[i].chance * static_cast<double>(samples.size());
+            // The density that the kernels know is that chance per unit of area.
+            EXPECT_NEAR(static_cast<double>(table.pdfArea[i + 1]) * emitters[i].area / emitters[i].chance,
+                        1.0, 1e-6);
+        }
+        const ChiSquare test = chiSquare(observed, expected);
+        EXPECT_GE(test.p, sidakLevel(kAlpha, 5))
+            << count << " emitters: " << test.statistic << " of " << test.degrees << " degrees";
+    }
+}
+
+// Which emitter a word picks, decided in 64-bit integers: all 32 bits count, those that have not chosen the
+// entry of the table decide about its alias.
+TEST(SampleLight, EveryBitDecides) {
+    const std::uint32_t count = 20011;
+    std::vector<shared::DeviceLight> lights = buildLightTable(randomEmitters(count, 18), true).lights;
+    std::vector<glm::uvec2> us = randomWords(1 << 18, 6);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        // The last word that keeps light i, and the first that does not; or as near as words come.
+        const std::uint64_t edge =
+            (std::uint64_t{i} << 32) +
+            static_cast<std::uint64_t>(static_cast<double>(lights[i].threshold) * 0x1p32);
+        const auto word = static_cast<std::uint32_t>(std::min<std::uint64_t>(edge / count, 0xffffffffu));
+        us.insert(us.end(), {{word, 0u}, {word + 1u, 0u}});
+    }
+    const auto samples = lightsOf(lights).call<LightSample>("sampleLight", count, us);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < us.size(); ++i) {
+        const std::uint64_t product = std::uint64_t{us[i].x} * count;
+        const std::uint64_t index = product >> 32;
+        const std::uint64_t fraction = (product & 0xffffffffu) >> 8;  // in units of 2^-24
+        const bool keep =
+            static_cast<double>(fraction) < static_cast<double>(lights[index].threshold) * 0x1p24;
+        kept += keep ? 1 : 0;
+        const std::uint64_t picked = keep ? index : lights[index].alias;
+        ASSERT_EQ(samples[i].material, lights[picked].material) << us[i].x;
+    }
+    EXPECT_GT(kept, us.size() / 4);
+    EXPECT_LT(kept, us.size() * 7 / 8);
+}
+
+/// Lights on the triangle (0,0), (1,0), (0,1) of the planes z = index, with these entries of the alias table.
+std::vector<shared::DeviceLight> stackedLights(const std::vector<AliasEntry>& table) {
+    std::vector<shared::DeviceLight> lights;
+    for (std::uint32_t i = 0; i < table.size(); ++i) {
+        const auto z = static_cast<float>(i);
+        lights.push_back({{0, 0, z},
+                          i,
+                          {1, 0, z},
+                          0.25f * static_cast<float>(i),
+                          {0, 1, z},
+                          0,
+                          table[i].threshold,
+                          table[i].alias,
+                          {0, 0}});
+    }
+    return lights;
+}
+
+// Thresholds 0 and 1, and a word that is at the threshold itself, which keeps nothing.
+TEST(SampleLight, ThresholdsByHand) {
+    const auto lights = stackedLights({{0.0f, 3}, {1.0f, 3}, {0.5f, 3}, {1.0f, 3}});
+    std::vector<glm::uvec2> us;
+    std::vector<std::uint32_t> expected;
+    for (const std::uint32_t bits : {0u, 1u, 0x1fffffffu, 0x20000000u, 0x3fffffffu}) {
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            us.emplace_back(i * 0x40000000u + bits, 0x80000000u);
+            expected.push_back(i == 0 || (i == 2 && bits >= 0x20000000u) ? 3 : i);
+        }
+    }
+    const auto samples = lightsOf(lights).call<LightSample>("sampleLight", 4u, us);
+    for (std::size_t i = 0; i < us.size(); ++i) {
+        EXPECT_EQ(samples[i].material, expected[i]) << i;
+        EXPECT_EQ(samples[i].position.z, static_cast<float>(expected[i])) << i;
+        EXPECT_EQ(samples[i].positionError, 0.25f * static_cast<float>(expected[i])) << i;
+        EXPECT_TRUE(samples[i].position.x >= 0.0f && samples[i].position.y >= 0.0f &&
+                    samples[i].position.x + samples[i].position.y <= 1.0f)
+            << i;
+    }
+}
+
+// What is left of the first word after the choice is uniform again, be an emitter kept or taken as an alias:
+// points have the density 2 on the triangle. With s = x + y, (s^2, y / s) is uniform on the unit square.
+// Three tests, level 1e-4 of all.
+TEST(SampleLight, PointsAreUniformOnTheTriangle) {
+    const auto lights = stackedLights({{0.3f, 1}, {1.0f, 0}});
+    const std::vector<glm::uvec2> us = randomWords(1 << 20, 7);
+    const auto samples = lightsOf(lights).call<LightSample>("sampleLight", 2u, us);
+    std::array<std::vector<glm::dvec2>, 3> points;
+    for (std::size_t i = 0; i < us.size(); ++i) {
+        const double x = static_cast<double>(samples[i].position.x);
+        const double y = static_cast<double>(samples[i].position.y);
+        const double s = x + y;
+        const std::size_t way = us[i].x >= 0x80000000u ? 0 : samples[i].material == 0 ? 1 : 2;
+        points[way].emplace_back(std::min(s * s, 1.0), s > 0.0 ? y / s : 0.0);
+    }
+    const std::array<const char*, 3> names{"light-always-kept", "light-kept", "light-by-alias"};
+    for (std::size_t way = 0; way < 3; ++way)
+        expectDensity(
+            names[way], points[way], {{0, 0}, {1, 1}}, [](double, double) { return 1.0; },
+            sidakLevel(kAlpha, 3));
+}
+
+TEST(SampleLight, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
+    const Scene scene = randomEmitters(500, 19);
+    const std::vector<Emitter> emitters = emittersOf(scene);
+    const LightTable table = buildLightTable(scene, true);
+    const auto samples = lightsOf(table.lights).call<LightSample>("sampleLight", 500u, randomWords(20000, 8));
+    for (const LightSample& s : samples) {
+        const Emitter& e = emitters[s.material - 1];
+        const Vec3 across = glm::cross(e.v1 - e.v0, e.v2 - e.v0);
+        // To the side from which the corners run counter-clockwise. Flat triangles lose digits.
+        const double flat = glm::length(e.v1 - e.v0) * glm::length(e.v2 - e.v0) / glm::length(across);
+        ASSERT_LT(glm::length(Vec3(s.normal) - glm::normalize(across)), 1e-6 * flat);
+        ASSERT_NEAR(glm::length(Vec3(s.normal)), 1.0, 2e-7);
+        const Vec3 p = Vec3(s.position) - e.v0;
+        const double error = static_cast<double>(s.positionError);
+        ASSERT_LE(std::abs(glm::dot(p, glm::normalize(across))), error);
+        // Barycentric coordinates, times twice the area.
+        const double b = glm::dot(glm::cross(p, e.v2 - e.v0), glm::normalize(across));
+        const double c = glm::dot(glm::cross(e.v1 - e.v0, p), glm::normalize(across));
+        const double slack = error * (glm::length(e.v1 - e.v0) + glm::length(e.v2 - e.v0));
+        ASSERT_GE(std::min({b, c, 2.0 * e.area - b - c}), -slack);
+        ASSERT_EQ(s.positionError, table.lights[s.material - 1].positionError);
+    }
+}
+
+// Every particle carries the power of the whole scene, in the colours of its emitter: because points are
+// picked by power, the sum of channels is the same for all, and the mean of each is that channel's power (z
+// test with the sample's variance, which its mean of a million normal-distributes; 3 tests, level 1e-4).
+TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
+    const Scene scene = randomEmitters(300, 20);
+    glm::dvec3 power(0.0);
+    for (const Emitter& e : emittersOf(scene))
+        power += e.power;
+    const LightTable table = buildLightTable(scene, true);
+    std::vector<glm::vec2> densityAndSides;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        densityAndSides.emplace_back(table.pdfArea[m],
+                                     scene.materials[m].emission.sides == Sides::kBoth ? 2.0f : 1.0f);
+    const auto samples =
+        lightsOf(table.lights)
+            .call<LightSample>("sampleLight", static_cast<std::uint32_t>(table.lights.size()),
+                               randomWords(1 << 18, 9));
+    std::vector<float> density, sides;
+    for (const LightSample& s : samples) {
+        density.push_back(densityAndSides[s.material].x);
+        sides.push_back(densityAndSides[s.material].y);
+    }
+    const auto flux = lightsOf(table.lights).call<float>("emittedFlux", density, sides);
+    glm::dvec3 sum(0.0), squares(0.0);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Emission& e = scene.materials[samples[i].material].emission;
+        const glm::dvec3 carried =
+            (glm::dvec3(e.invisible) + glm::dvec3(e.visible)) * static_cast<double>(flux[i]);
+        ASSERT_NEAR((carried.x + carried.y + carried.z) / (power.x + power.y + power.z), 1.0, 1e-6);
+        sum += carried;
+        squares += carried * carried;
+    }
+    const auto n = static_cast<double>(samples.size());
+    for (int c = 0; c < 3; ++c) {
+        const double mean = sum[c] / n;
+        const double error = std::sqrt((squares[c] / n - mean * mean) / n);
+        EXPECT_GE(studentTwoSided((mean - power[c]) / error, n - 1.0), sidakLevel(kAlpha, 3)) << c;
+    }
+}
+
+/// Points and weights of Gauss and Legendre's rule of 5 x 5 points in each of n x n cells of the unit square.
+struct Quadrature {
+    std::vector<glm::dvec2> at;
+    std::vector<double> weight;
+};
+
+Quadrature quadrature(int cells) {
+    Quadrature rule;
+    // Abramowitz & Stegun, table 25.4.
+    const std::array<double, 5> node{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                                     0.9061798459386640};
+    const std::array<double, 5> weight{0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                       0.4786286704993665, 0.2369268850561891};
+    const double half = 0.5 / cells;
+    for (int i = 0; i < cells * cells; ++i) {
+        const glm::dvec2 centre = half * glm::dvec2(2 * (i % cells) + 1, 2 * (i / cells) + 1);
+        for (std::size_t a = 0; a < 5; ++a) {
+            for (std::size_t b = 0; b < 5; ++b) {
+                rule.at.push_back(centre + half * glm::dvec2(node[a], node[b]));
+                rule.weight.push_back(half * half * weight[a] * weight[b]);
+            }
+        }
+    }
+    return rule;
+}
+
+// The density per steradian of uniform points on a triangle integrates to 1 over the directions in which it
+// is seen. Directions are taken on a plane at distance 1 (there dw = cos^3 dA), on which the triangle is seen
+// as another, so that distance and cosine at the light come from where a ray meets its plane.
+TEST(PdfAreaToSolidAngle, IntegratesToOneOverDirections) {
+    const Quadrature rule = quadrature(16);
+    std::mt19937 engine(21);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::vector<float> density, squared, cosine;
+    std::vector<double> weight;
+    constexpr int kTriangles = 20;
+    for (int t = 0; t < kTriangles; ++t) {
+        // Seen from the origin, at distance 1 and more along -z, of either winding, also from aside.
+        std::array<Vec3, 3> v;
+        for (Vec3& p : v)
+            p = Vec3(uniform(engine), uniform(engine), -2.0 - 0.9 * uniform(engine));
+        const Vec3 across = glm::cross(v[1] - v[0], v[2] - v[0]);
+        const double area = 0.5 * glm::length(across);
+        const Vec3 normal = glm::normalize(across);
+        std::array<glm::dvec2, 3> seen;
+        for (std::size_t k = 0; k < 3; ++k)
+            seen[k] = glm::dvec2(v[k]) / -v[k].z;
+        const glm::dvec2 e1 = seen[1] - seen[0], e2 = seen[2] - seen[0];
+        const double jacobian = std::abs(e1.x * e2.y - e1.y * e2.x);
+        for (std::size_t i = 0; i < rule.at.size(); ++i) {
+            // The square collapsed to the triangle.
+            const double x = rule.at[i].x, y = rule.at[i].y * (1.0 - x);
+            const Vec3 direction = glm::normalize(Vec3(seen[0] + x * e1 + y * e2, -1.0));
+            const double distance = glm::dot(v[0], normal) / glm::dot(direction, normal);
+            density.push_back(static_cast<float>(1.0 / area));
+            squared.push_back(static_cast<float>(distance * distance));
+            cosine.push_back(static_cast<float>(glm::dot(direction, normal)));
+            weight.push_back(rule.weight[i] * (1.0 - x) * jacobian * std::pow(-direction.z, 3.0));
+        }
+    }
+    const ShaderLibrary library = lightsOf(stackedLights({{1.0f, 0}}));
+    const auto pdf = library.call<float>("pdfAreaToSolidAngle", density, squared, cosine);
+    for (std::size_t t = 0; t < kTriangles; ++t) {
+        double integral = 0.0;
+        for (std::size_t i = t * rule.at.size(); i < (t + 1) * rule.at.size(); ++i)
+            integral += weight[i] * static_cast<double>(pdf[i]);
+        EXPECT_NEAR(integral, 1.0, 1e-6) << t;
+    }
+}
+
+TEST(LightsOracles, Densities) {
+    std::mt19937 engine(22);
+    std::uniform_real_distribution<float> uniform(-30.0f, 30.0f);
+    std::vector<float> a, b, cosine, sides;
+    for (int i = 0; i < 4096; ++i) {
+        a.push_back(i % 16 == 0 ? 0.0f : std::exp2(uniform(engine)));
+        b.push_back(i % 16 <= 1 ? 0.0f : std::exp2(uniform(engine)));
+        cosine.push_back(i % 16 == 0 ? 0.0f : uniform(engine) / 30.0f);
+        sides.push_back(i % 2 == 0 ? 1.0f : 2.0f);
+    }
+    const ShaderLibrary library = lightsOf(stackedLights({{1.0f, 0}}));
+    EXPECT_ORACLES(library, balanceHeuristic, (Budget{4, 0}), a, b);
+    EXPECT_ORACLES(library, pdfAreaToSolidAngle, (Budget{4, 0}), a, b, cosine);
+    std::vector<float> positive = a;
+    for (float& x : positive)
+        x = std::max(x, 1e-9f);
+    EXPECT_ORACLES(library, emittedFlux, (Budget{4, 0}), positive, sides);
+}
+
+TEST(LightsOracles, Samples) {
+    const LightTable table = buildLightTable(randomEmitters(500, 23), true);
+    mirror::texels().lights.resize(table.lights.size() * shared::kLightTexels);
+    std::memcpy(mirror::texels().lights.data(), table.lights.data(),
+                std::as_bytes(std::span(table.lights)).size());
+    const ShaderLibrary library = lightsOf(table.lights);
+    std::vector<std::uint32_t> indices(500);
+    for (std::uint32_t i = 0; i < 500; ++i)
+        indices[i] = i;
+    EXPECT_ORACLES(library, fetchLight, (Budget{0, 0}), indices);
+    // The choice is exact in all three: of a word, and of a product of two. Coordinates reach 11; a normal of
+    // a flat triangle, and the rest of a random number within a small threshold, lose digits.
+    std::vector<std::uint32_t> counts(20000, 500u);
+    EXPECT_ORACLES(library, sampleLight, (Budget{2, 4e-6}), counts, randomWords(20000, 10));
+}
+
+}  // namespace
+}  // namespace duolux::test
