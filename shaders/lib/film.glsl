@@ -11,8 +11,9 @@ const float kLargestRadiance = 1e30;
 // One radiance value >= 0 in quanta, clamped to the largest.
 uvec2 filmQuantise(float value, float inverseQuantum) {
     float scaled = min(value * inverseQuantum, kFilmLargest);
-    // Below 2^24 there is a fraction to round; above, the float is an integer already.
-    scaled = scaled < 16777216.0 ? floor(scaled + 0.5) : scaled;
+    // Below 2^23 there is a fraction to round; above, the float is an integer already, to which 0.5 must not be added:
+    // the sum of the two would be rounded, too.
+    scaled = scaled < 8388608.0 ? floor(scaled + 0.5) : scaled;
     float high = floor(scaled * (1.0 / 4294967296.0));
     return uvec2(uint(scaled - high * 4294967296.0), uint(high));
 }
