@@ -50,10 +50,10 @@ void addSample(inout SlotSums sums, Gathered gathered, float inverseQuantum) {
         sums.visible = filmAccumulate(sums.visible, gathered.light.visible, inverseQuantum);
         sums.lastBounce += gathered.lastBounce;
         sums.previousBounce += gathered.previousBounce;
+        sums.clamped += sum * inverseQuantum >= kFilmLargest ? 1u : 0u;
     } else {
         sums.nonFinite += 1u;
     }
-    sums.clamped += sum * inverseQuantum >= kFilmLargest ? 1u : 0u;
 }
 
 uint[6] words(FilmSum sum) { return uint[6](sum.r.x, sum.r.y, sum.g.x, sum.g.y, sum.b.x, sum.b.y); }
