@@ -48,6 +48,12 @@ DUOLUX_MIRROR_TYPE(FilmSum, s.r, s.g, s.b);
 DUOLUX_MIRROR_TYPE(LightTriangle, s.v0, s.v1, s.v2, s.material, s.positionError);
 DUOLUX_MIRROR_TYPE(LightSample, s.position, s.normal, s.material, s.positionError);
 DUOLUX_MIRROR_TYPE(Gathered, s.light, s.lastBounce, s.previousBounce);
+DUOLUX_MIRROR_TYPE(SlotSums, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
+                   s.shadowRays, s.emitterRays, s.lastBounce, s.previousBounce);
+DUOLUX_MIRROR_TYPE(SlotResult, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
+                   s.shadowRays, s.emitterRays, s.lastBounce, s.previousBounce);
+DUOLUX_MIRROR_TYPE(LaneResult, s.nonFinite, s.clamped, s.lightRays, s.bounceRays, s.shadowRays, s.lastBounce,
+                   s.previousBounce);
 
 namespace duolux::mirror::single {
 
@@ -65,6 +71,18 @@ inline twice::FilmSum widen(const FilmSum& s) {
 }
 inline twice::Gathered widen(const Gathered& g) {
     return {widen(g.light), test::widen(g.lastBounce), test::widen(g.previousBounce)};
+}
+inline twice::SlotSums widen(const SlotSums& s) {
+    return {widen(s.invisible),
+            widen(s.visible),
+            s.nonFinite,
+            s.clamped,
+            s.cameraRays,
+            s.bounceRays,
+            s.shadowRays,
+            s.emitterRays,
+            test::widen(s.lastBounce),
+            test::widen(s.previousBounce)};
 }
 
 }  // namespace duolux::mirror::single

@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/shader/light_types.h"
+
+// What lanes add up, compared with both oracles. What it has to be: slot_sums_test.glsl,
+// light_path_test.glsl.
+
+DUOLUX_GLSL_TYPE(duolux::mirror::single::Array<6>, "uint[6]", "");
+DUOLUX_GLSL_TYPE(duolux::mirror::single::light_path::LaneSums, "LaneSums", "");
+
+namespace duolux::test {
+namespace {
+
+using mirror::single::FilmSum;
+using mirror::single::Gathered;
+using mirror::single::Light;
+using mirror::single::SlotSums;
+
+const ShaderLibrary& slotSums() {
+    static const ShaderLibrary library("shaders/lib/slot_sums.glsl");
+    return library;
+}
+
+class SlotSumsOracles : public testing::Test {
+  protected:
+    std::uint32_t word() { return static_cast<std::uint32_t>(engine_()); }
+    float number() { return uniform_(engine_); }
+    glm::vec3 vector() { return {number(), number(), number()}; }
+    FilmSum filmSum() { return {{word(), word()}, {word(), word()}, {word(), word()}}; }
+    Gathered gathered(float bright) { return {{bright * vector(), bright * vector()}, number(), number()}; }
+    SlotSums sums() {
+        return {filmSum(), filmSum(), word(), word(), word(), word(), word(), word(), number(), number()};
+    }
+
+    std::mt19937 engine_{12};
+    std::uniform_real_distribution<float> uniform_;
+};
+
+constexpr Budget kExact{0, 0};
+
+TEST_F(SlotSumsOracles, Gather) {
+    std::vector<Gathered> before;
+    std::vector<Light> lights;
+    std::vector<glm::uvec2> scatterings;  // of the path, and allowed
+    std::vector<glm::vec2> display;
+    for (int i = 0; i < 4096; ++i) {
+        before.push_back(gathered(1.0f));
+        lights.push_back({vector(), vector()});
+        scatterings.emplace_back(word() % 4, word() % 4);
+        display.emplace_back(number(), number());
+    }
+    const auto after = slotSums().evaluate<Gathered>(
+        "Gathered g = x0; gather(g, x1, x2.x, x2.y, x3); result = g;", before, lights, scatterings, display);
+    // A sum of seven terms of about 1.
+    expectOracles(
+        "gather", after, Budget{4, 5e-7},
+        [](Gathered g, const auto& l, const auto& s, const auto& d) {
+            mirror::single::gather(g, l, s.x, s.y, d);
+            return g;
+        },
+        [](mirror::twice::Gathered g, const auto& l, const auto& s, const auto& d) {
+            mirror::twice::gather(g, l, s.x, s.y, d);
+            return g;
+        },
+        before, lights, scatterings, display);
+    EXPECT_EQ(numbers(slotSums().call<Gathered>("nothingGathered")[0]),
+              numbers(mirror::single::nothingGathered()));
+}
+
+// Numbers of all sizes; where a sum of six is beside 2^56 quanta or 1e30, precision decides, so that there is
+// none.
+TEST_F(SlotSumsOracles, Samples) {
+    std::vector<SlotSums> before;
+    std::vector<Gathered> samples;
+    for (int i = 0; i < 4096; ++i) {
+        before.push_back(sums());
+        const float bright = std::exp2(static_cast<float>(i % 110));
+        samples.push_back(i % 16 == 15 ? gathered(i % 32 == 31 ? NAN : INFINITY) : gathered(bright));
+    }
+    const auto after = slotSums().evaluate<SlotSums>("SlotSums s = x0; addSample(s, x1, 1024.0); result = s;",
+                                                     before, samples);
+    // Words are exact; the statistics' floats are sums of two numbers of about 1.
+    expectOracles(
+        "addSample", after, Budget{1, 0},
+        [](SlotSums s, const auto& g) {
+            mirror::single::addSample(s, g, 1024.0f);
+            return s;
+        },
+        [](mirror::twice::SlotSums s, const auto& g) {
+            mirror::twice::addSample(s, g, 1024.0);
+            return s;
+        },
+        before, samples);
+}
+
+TEST_F(SlotSumsOracles, Results) {
+    std::vector<FilmSum> filmSums;
+    std::vector<SlotSums> all;
+    for (int i = 0; i < 1024; ++i) {
+        filmSums.push_back(filmSum());
+        all.push_back(sums());
+    }
+    EXPECT_ORACLES(slotSums(), words, kExact, filmSums);
+    EXPECT_ORACLES(slotSums(), slotResult, kExact, all);
+    EXPECT_EQ(numbers(slotSums().call<SlotSums>("emptySums")[0]), numbers(mirror::single::emptySums()));
+}
+
+TEST(LightPathOracles, LaneResult) {
+    using mirror::single::light_path::LaneSums;
+    ShaderLibrary library("shaders/lib/light_path.glsl");
+    library.define("uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }");
+    const std::vector<LaneSums> sums{
+        library.call<LaneSums>("emptySums")[0],
+        {1, 2, 3, 4, 5, {6, 7}, {8, 9}},
+        {0xfffffff1, 0xfffffff2, 0xfffffff3, 0xfffffff4, 0xfffffff5, {6, 0xffffffff}, {8, 0x80000000}}};
+    const auto results = library.call<mirror::single::LaneResult>("laneResult", sums);
+    EXPECT_EQ(numbers(results[0]),
+              numbers(mirror::single::light_path::laneResult(mirror::single::light_path::emptySums())));
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        EXPECT_EQ(numbers(results[i]), numbers(mirror::single::light_path::laneResult(sums[i])));
+}
+
+}  // namespace
+}  // namespace duolux::test
