@@ -27,8 +27,9 @@ float edgeIntegral(vec3 a, vec3 b, vec3 normal) {
     return sine > 0.0 ? angle * dot(across, normal) / sine : 0.0;
 }
 
-// Where the edge from a to b meets the horizon; da and db are the heights of its ends, of different signs.
-vec3 horizonPoint(vec3 a, vec3 b, float da, float db) { return a + (b - a) * (da / (da - db)); }
+// Where the edge from a to b meets the horizon; da and db are the heights of its ends, of different signs. Two terms
+// that do not cancel: from a corner far away to one nearby a + (b - a) da / (da - db) would lose the latter's digits.
+vec3 horizonPoint(vec3 a, vec3 b, float da, float db) { return (b * da - a * db) / (da - db); }
 
 // Projected solid angle, in steradians, of the triangle with corners a, b, c (from the receiving point, of any length), as
 // far as it is above the horizon of `normal`: a diffuse surface of albedo rho turns radiance L into rho/pi L times it.
