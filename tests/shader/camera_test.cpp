@@ -7,50 +7,86 @@
 
 #include "shaders/shared/path_layout.h"
 #include "tests/reference/pinhole.h"
-#include "tests/support/run_kernel.h"
+#include "tests/shader/oracles.h"
 
-namespace duolux::spirv {
-extern const std::span<const std::uint32_t> kCameraTest;
-}
+// Camera rays, and how light paths see the camera, against the reference's rays in double precision.
 
-// How light paths see the camera, against the camera rays of the reference in double precision.
+DUOLUX_GLSL_TYPE(duolux::shared::PathParams, "PathParams", "");
+
+namespace duolux::test {
+
+/// CameraConnection as it goes through a buffer.
+struct Seen {
+    std::uint32_t visible, pixel;
+    glm::vec3 direction;
+    float distance, importance;
+};
+
+}  // namespace duolux::test
+
+DUOLUX_GLSL_TYPE(duolux::test::Seen, "Seen",
+                 "uint visible; uint pixel; vec3 direction; float distance; float importance;");
 
 namespace duolux::test {
 namespace {
 
 using reference::Vec3;
 
-struct CameraOutput {
-    std::uint32_t visible, pixel;
-    glm::vec3 direction;
-    float distance, importance;
-};
-
 constexpr std::uint32_t kWidth = 37, kHeight = 23;
 const Camera kCamera{{1.5f, -2.0f, 0.5f}, {-3.0f, 1.0f, 2.0f}, {0.2f, 1.0f, -0.1f}, 71.0f};
 
-shared::PathParams paramsOf(const Camera& camera) {
+const ShaderLibrary& camera() {
+    static const ShaderLibrary library("shaders/lib/camera.glsl");
+    return library;
+}
+
+shared::PathParams paramsOf(const Camera& camera, std::uint32_t width = kWidth,
+                            std::uint32_t height = kHeight) {
     const Vec3 forward = glm::normalize(Vec3(camera.target) - Vec3(camera.position));
     const Vec3 right = glm::normalize(glm::cross(forward, Vec3(camera.up)));
     const double half = std::tan(static_cast<double>(camera.vfov) * std::numbers::pi / 360.0);
+    const double aspect = static_cast<double>(width) / height;
     shared::PathParams params{};
-    params.width = kWidth;
-    params.height = kHeight;
+    params.width = width;
+    params.height = height;
     params.cameraPosition = camera.position;
     params.cameraForward = forward;
-    params.cameraRight = right * (half * kWidth / kHeight);
+    params.cameraRight = right * (half * aspect);
     params.cameraUp = glm::cross(right, forward) * half;
-    params.imageArea = static_cast<float>(4.0 * half * half * kWidth / kHeight);
+    params.imageArea = static_cast<float>(4.0 * half * half * aspect);
     return params;
 }
 
-std::vector<CameraOutput> connect(const std::vector<glm::vec3>& points) {
-    const shared::PathParams params = paramsOf(kCamera);
-    const Buffer input = Buffer::upload<glm::vec3>(device(), BufferUse::kStorage, points, "points");
-    const Buffer block =
-        Buffer::upload(device(), BufferUse::kUniform, std::as_bytes(std::span(&params, 1)), "parameters");
-    const auto count = static_cast<std::uint32_t>(points.size());
-    return runKernel<CameraOutput>(spirv::kCameraTest, {{0, &input}, {2, &block}}, 1, count, count);
+std::vector<Seen> connect(const shared::PathParams& params, const std::vector<glm::vec3>& points) {
+    return camera().evaluate<Seen>(
+        "CameraConnection c = connectToCamera(x0, x1);"
+        "result = Seen(c.visible ? 1u : 0u, c.pixel, c.direction, c.distance, c.importance);",
+        params, points);
+}
+
+TEST(CameraDirection, IsThatOfTheReference) {
+    for (const float vfov : {1.0f, 40.0f, 71.0f, 150.0f}) {
+        for (const glm::uvec2 size : {glm::uvec2(37, 23), glm::uvec2(1, 1), glm::uvec2(2048, 16)}) {
+            Camera view = kCamera;
+            view.vfov = vfov;
+            const reference::Pinhole pinhole(view, size.x, size.y);
+            // Corners, the centre, and anywhere.
+            const glm::vec2 extent(size);
+            std::vector<glm::vec2> positions{{0, 0}, {extent.x, 0}, {0, extent.y}, extent, 0.5f * extent};
+            std::mt19937 engine(1);
+            std::uniform_real_distribution<float> uniform;
+            while (positions.size() < 500)
+                positions.push_back(extent * glm::vec2(uniform(engine), uniform(engine)));
+            const auto directions =
+                camera().call<glm::vec3>("cameraDirection", paramsOf(view, size.x, size.y), positions);
+            for (std::size_t i = 0; i < positions.size(); ++i) {
+                const Vec3 expected =
+                    pinhole.ray(static_cast<double>(positions[i].x), static_cast<double>(positions[i].y))
+                        .direction;
+                EXPECT_LT(glm::length(Vec3(directions[i]) - expected), 4e-7) << vfov << ", " << i;
+            }
+        }
+    }
 }
 
 TEST(CameraConnection, SeesAPointWhereTheCamerasRayGoes) {
@@ -67,7 +103,7 @@ TEST(CameraConnection, SeesAPointWhereTheCamerasRayGoes) {
         const reference::Ray ray = pinhole.ray(x, y);
         points.emplace_back(ray.origin + std::exp(8.0 * uniform(engine) - 4.0) * ray.direction);
     }
-    const std::vector<CameraOutput> seen = connect(points);
+    const std::vector<Seen> seen = connect(paramsOf(kCamera), points);
     // The directions of the corners, for the area of the image plane at distance 1.
     const Vec3 forward = glm::normalize(Vec3(kCamera.target) - Vec3(kCamera.position));
     const auto onPlane = [&](double x, double y) {
@@ -101,7 +137,7 @@ TEST(CameraConnection, SeesNothingBesideOrBehind) {
     for (const double x : {0.5, 18.0, 36.5}) {  // what a ray backwards meets
         points.emplace_back(pinhole.ray(x, 7).origin - 2.0 * pinhole.ray(x, 7).direction);
     }
-    const std::vector<CameraOutput> seen = connect(points);
+    const std::vector<Seen> seen = connect(paramsOf(kCamera), points);
     for (std::size_t i = 0; i < points.size(); ++i)
         EXPECT_EQ(seen[i].visible, 0u) << i;
 }
@@ -116,10 +152,10 @@ TEST(CameraConnection, ImportanceOfAPixelIntegratesToItsPart) {
         const glm::vec3 d(normal(engine), normal(engine), normal(engine));
         p = kCamera.position + 2.0f * glm::normalize(d);
     }
-    const std::vector<CameraOutput> seen = connect(points);
+    const std::vector<Seen> seen = connect(paramsOf(kCamera), points);
     std::vector<double> sum(kWidth * kHeight), squares(kWidth * kHeight);
     double whole = 0.0;
-    for (const CameraOutput& s : seen) {
+    for (const Seen& s : seen) {
         const double value =
             s.visible != 0 ? static_cast<double>(s.importance) * 4.0 * std::numbers::pi : 0.0;
         if (value == 0.0) continue;
@@ -136,6 +172,63 @@ TEST(CameraConnection, ImportanceOfAPixelIntegratesToItsPart) {
         beyond += std::abs(mean - 1.0) > 4.5 * error ? 1 : 0;
     }
     EXPECT_EQ(beyond, 0);  // of 851 pixels, 0.006 expected
+}
+
+/// The camera's part of the parameters.
+template <typename Params>
+Params mirrored(const shared::PathParams& p) {
+    Params out{};
+    out.cameraPosition = p.cameraPosition;
+    out.cameraForward = p.cameraForward;
+    out.cameraRight = p.cameraRight;
+    out.cameraUp = p.cameraUp;
+    out.width = p.width;
+    out.height = p.height;
+    out.imageArea = p.imageArea;
+    return out;
+}
+
+TEST(CameraOracles, RaysAndConnections) {
+    const shared::PathParams params = paramsOf(kCamera);
+    const auto single = mirrored<mirror::single::PathParams>(params);
+    const auto twice = mirrored<mirror::twice::PathParams>(params);
+    std::mt19937 engine(6);
+    std::uniform_real_distribution<float> uniform;
+    std::vector<glm::vec2> positions;
+    std::vector<glm::vec3> points;
+    const reference::Pinhole pinhole(kCamera, kWidth, kHeight);
+    for (int i = 0; i < 8192; ++i) {
+        positions.push_back(glm::vec2(kWidth, kHeight) * glm::vec2(uniform(engine), uniform(engine)));
+        // In the middle of pixels, some of them beside the image: which pixel it is does not depend on
+        // rounding.
+        const double x = std::floor(-5.0f + (kWidth + 10.0f) * uniform(engine)) + 0.5f;
+        const double y = std::floor(-5.0f + (kHeight + 10.0f) * uniform(engine)) + 0.5f;
+        const double distance = std::exp(6.0 * static_cast<double>(uniform(engine)) - 2.0);
+        points.emplace_back(Vec3(kCamera.position) + distance * pinhole.ray(x, y).direction);
+    }
+    expectOracles(
+        "cameraDirection", camera().call<glm::vec3>("cameraDirection", params, positions), Budget{2, 3e-7},
+        [&](const auto& p) { return mirror::single::cameraDirection(single, p); },
+        [&](const auto& p) { return mirror::twice::cameraDirection(twice, p); }, positions);
+    const std::vector<Seen> seen = connect(params, points);
+    std::vector<glm::uvec2> pixels;
+    std::vector<glm::vec4> rest;
+    std::vector<float> importance;
+    for (const Seen& s : seen) {
+        pixels.emplace_back(s.visible, s.pixel);
+        rest.emplace_back(s.direction, s.distance);
+        importance.push_back(s.importance);
+    }
+    const auto compare = [&](const char* name, const auto& device, const Budget& budget, const auto& part) {
+        expectOracles(
+            name, device, budget,
+            [&](const auto& p) { return part(mirror::single::connectToCamera(single, p)); },
+            [&](const auto& p) { return part(mirror::twice::connectToCamera(twice, p)); }, points);
+    };
+    compare("pixel", pixels, {0, 0}, [](const auto& c) { return glm::uvec2(c.visible, c.pixel); });
+    compare("direction, distance", rest, {4, 3e-7},
+            [](const auto& c) { return glm::dvec4(c.direction, c.distance); });
+    compare("importance", importance, {24, 0}, [](const auto& c) { return c.importance; });
 }
 
 }  // namespace
