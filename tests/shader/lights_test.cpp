@@ -269,72 +269,50 @@ TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
     }
 }
 
-/// Points and weights of Gauss and Legendre's rule of 5 x 5 points in each of n x n cells of the unit square.
-struct Quadrature {
-    std::vector<glm::dvec2> at;
-    std::vector<double> weight;
-};
-
-Quadrature quadrature(int cells) {
-    Quadrature rule;
-    // Abramowitz & Stegun, table 25.4.
-    const std::array<double, 5> node{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
-                                     0.9061798459386640};
-    const std::array<double, 5> weight{0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                       0.4786286704993665, 0.2369268850561891};
-    const double half = 0.5 / cells;
-    for (int i = 0; i < cells * cells; ++i) {
-        const glm::dvec2 centre = half * glm::dvec2(2 * (i % cells) + 1, 2 * (i / cells) + 1);
-        for (std::size_t a = 0; a < 5; ++a) {
-            for (std::size_t b = 0; b < 5; ++b) {
-                rule.at.push_back(centre + half * glm::dvec2(node[a], node[b]));
-                rule.weight.push_back(half * half * weight[a] * weight[b]);
-            }
-        }
-    }
-    return rule;
-}
-
 // The density per steradian of uniform points on a triangle integrates to 1 over the directions in which it
 // is seen. Directions are taken on a plane at distance 1 (there dw = cos^3 dA), on which the triangle is seen
 // as another, so that distance and cosine at the light come from where a ray meets its plane.
 TEST(PdfAreaToSolidAngle, IntegratesToOneOverDirections) {
-    const Quadrature rule = quadrature(16);
     std::mt19937 engine(21);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    std::vector<float> density, squared, cosine;
-    std::vector<double> weight;
-    constexpr int kTriangles = 20;
-    for (int t = 0; t < kTriangles; ++t) {
+    const ShaderLibrary library = lightsOf(stackedLights({{1.0f, 0}}));
+    for (int t = 0; t < 20; ++t) {
         // Seen from the origin, at distance 1 and more along -z, of either winding, also from aside.
         std::array<Vec3, 3> v;
         for (Vec3& p : v)
             p = Vec3(uniform(engine), uniform(engine), -2.0 - 0.9 * uniform(engine));
         const Vec3 across = glm::cross(v[1] - v[0], v[2] - v[0]);
-        const double area = 0.5 * glm::length(across);
         const Vec3 normal = glm::normalize(across);
         std::array<glm::dvec2, 3> seen;
         for (std::size_t k = 0; k < 3; ++k)
             seen[k] = glm::dvec2(v[k]) / -v[k].z;
         const glm::dvec2 e1 = seen[1] - seen[0], e2 = seen[2] - seen[0];
         const double jacobian = std::abs(e1.x * e2.y - e1.y * e2.x);
-        for (std::size_t i = 0; i < rule.at.size(); ++i) {
-            // The square collapsed to the triangle.
-            const double x = rule.at[i].x, y = rule.at[i].y * (1.0 - x);
-            const Vec3 direction = glm::normalize(Vec3(seen[0] + x * e1 + y * e2, -1.0));
-            const double distance = glm::dot(v[0], normal) / glm::dot(direction, normal);
-            density.push_back(static_cast<float>(1.0 / area));
-            squared.push_back(static_cast<float>(distance * distance));
-            cosine.push_back(static_cast<float>(glm::dot(direction, normal)));
-            weight.push_back(rule.weight[i] * (1.0 - x) * jacobian * std::pow(-direction.z, 3.0));
-        }
-    }
-    const ShaderLibrary library = lightsOf(stackedLights({{1.0f, 0}}));
-    const auto pdf = library.call<float>("pdfAreaToSolidAngle", density, squared, cosine);
-    for (std::size_t t = 0; t < kTriangles; ++t) {
-        double integral = 0.0;
-        for (std::size_t i = t * rule.at.size(); i < (t + 1) * rule.at.size(); ++i)
-            integral += weight[i] * static_cast<double>(pdf[i]);
+        // integrate() tells the points first, then gets the device's answers, in the same order.
+        std::vector<float> squared, cosine;
+        std::vector<double> weight;
+        const Rectangle square{{0.0, 0.0}, {1.0, 1.0}};
+        integrate(
+            [&](double x, double y) {
+                // The square collapsed to the triangle.
+                const glm::dvec2 at = seen[0] + x * e1 + y * (1.0 - x) * e2;
+                const Vec3 direction = glm::normalize(Vec3(at, -1.0));
+                const double distance = glm::dot(v[0], normal) / glm::dot(direction, normal);
+                squared.push_back(static_cast<float>(distance * distance));
+                cosine.push_back(static_cast<float>(glm::dot(direction, normal)));
+                weight.push_back((1.0 - x) * jacobian * std::pow(-direction.z, 3.0));
+                return 0.0;
+            },
+            square, 16);
+        const auto density = static_cast<float>(2.0 / glm::length(across));
+        const auto pdf = library.call<float>("pdfAreaToSolidAngle", density, squared, cosine);
+        std::size_t next = 0;
+        const double integral = integrate(
+            [&](double, double) {
+                const std::size_t i = next++;
+                return weight[i] * static_cast<double>(pdf[i]);
+            },
+            square, 16);
         EXPECT_NEAR(integral, 1.0, 1e-6) << t;
     }
 }
