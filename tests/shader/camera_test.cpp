@@ -206,7 +206,7 @@ TEST(CameraOracles, RaysAndConnections) {
         const double distance = std::exp(6.0 * static_cast<double>(uniform(engine)) - 2.0);
         points.emplace_back(Vec3(kCamera.position) + distance * pinhole.ray(x, y).direction);
     }
-    expectOracles(
+    EXPECT_WITHIN_ORACLES(
         "cameraDirection", camera().call<glm::vec3>("cameraDirection", params, positions), Budget{2, 3e-7},
         [&](const auto& p) { return mirror::single::cameraDirection(single, p); },
         [&](const auto& p) { return mirror::twice::cameraDirection(twice, p); }, positions);
@@ -220,7 +220,7 @@ TEST(CameraOracles, RaysAndConnections) {
         importance.push_back(s.importance);
     }
     const auto compare = [&](const char* name, const auto& device, const Budget& budget, const auto& part) {
-        expectOracles(
+        EXPECT_WITHIN_ORACLES(
             name, device, budget,
             [&](const auto& p) { return part(mirror::single::connectToCamera(single, p)); },
             [&](const auto& p) { return part(mirror::twice::connectToCamera(twice, p)); }, points);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
+#include <source_location>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -22,8 +23,10 @@ double integrate(const Density& density, const Rectangle& domain, int cells);
 /// Fails the test unless `samples`, points of `domain`, come from `density`: Pearson's chi-square over
 /// bins x bins cells, those of low expectation merged, at the level `alpha`. That the density integrates to 1
 /// over the domain is checked, too, to 1e-4. On failure observed and expected counts and the standardised
-/// difference of each bin are left as pictures in the build directory, under artefacts/NAME.
+/// difference of each bin are left as pictures (PFM, rows along y from the lower end) in the build directory:
+/// artefacts/NAME-observed.pfm, -expected, -z.
 void expectDensity(std::string_view name, std::span<const glm::dvec2> samples, const Rectangle& domain,
-                   const Density& density, double alpha, int bins = 32);
+                   const Density& density, double alpha, int bins = 32,
+                   const std::source_location& where = std::source_location::current());
 
 }  // namespace duolux::test

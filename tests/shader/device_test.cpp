@@ -47,8 +47,22 @@ TEST(TestDevice, NoDriverIsAFailure) {
     const ProgramResult result =
         runWith("VK_ICD_FILENAMES", "/nowhere", {"--gtest_filter=WarpGlsl.CosineHemisphereIsUnit"});
     EXPECT_EQ(result.status, 1);
-    EXPECT_THAT(result.out, testing::HasSubstr("is a driver installed?"));
-    EXPECT_THAT(result.out, testing::HasSubstr("[  FAILED  ] 1 test"));
+    EXPECT_THAT(result.err, testing::HasSubstr("is a driver installed?"));
+}
+
+TEST(TestDevice, ListsItsTestsWithoutOne) {
+    const ProgramResult result = runWith("VK_ICD_FILENAMES", "/nowhere", {"--gtest_list_tests"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, testing::HasSubstr("WarpGlsl."));
+}
+
+/// CTest would take the absence of a test for its success.
+TEST(TestDevice, ATestThatDoesNotExistIsAFailure) {
+    const TemporaryFolder folder;
+    const ProgramResult result =
+        runProgram(DUOLUX_SHADER_TEST, folder.path(), {"--gtest_filter=WarpGlsl.Nowhere"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, testing::HasSubstr("no test's name matches WarpGlsl.Nowhere"));
 }
 
 TEST(TestDevice, OneThatIsNotThereIsAFailure) {
@@ -57,7 +71,8 @@ TEST(TestDevice, OneThatIsNotThereIsAFailure) {
          {runWith("DUOLUX_DEVICE", "no such device", arguments),
           runWith("DUOLUX_DEVICE", "cpu", {"--device", "no such device", arguments[0]})}) {
         EXPECT_EQ(result.status, 1);
-        EXPECT_THAT(result.out, testing::HasSubstr("no such device"));
+        EXPECT_THAT(result.err, testing::HasSubstr("DUOLUX_DEVICE=no such device: "));
+        EXPECT_THAT(result.err, testing::HasSubstr("no such usable device"));
     }
 }
 

@@ -83,6 +83,11 @@ TEST_F(Harness, WhatIsFalseFails) {
         "EXPECT_LE(uintBitsToFloat(0x7fc00000u), 2.0);",
         "EXPECT_GT(1.0, 1.0);",
         "EXPECT_GE(1u, 2u);",
+        "EXPECT_EQ(vec3(0.0, 1.0, 0.0), vec2(0.0, 1.0));",
+        "EXPECT_GE(vec3(0.6, 0.1, 0.1), 0.5);",
+        "EXPECT_LT(uvec2(1u, 5u), uvec2(2u, 3u));",
+        "EXPECT_NE(vec2(1.0, 2.0), 1.0);",
+        "EXPECT_NEAR(1.0, 1.0, -1.0);",
     };
     std::string text;
     for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -142,13 +147,54 @@ TEST_F(Harness, ATestThatChecksNothingFails) {
     EXPECT_THAT(failures[0].message, HasSubstr("no invocation has reached this"));
 }
 
+TEST_F(Harness, ExpectationsOfOtherFilesAreRefused) {
+    writeFile(folder_ / "helper.glsl", "void check(float x) {\n    EXPECT_GE(x, 0.5);\n}\n");
+    writeFile(folder_ / "between.glsl", "#include \"helper.glsl\"\n");
+    try {
+        parseGlslFile("x_test.glsl", "#include \"between.glsl\"\nTEST(A) { check(1.0); }\n");
+        FAIL() << "understood";
+    } catch (const std::runtime_error& e) {
+        EXPECT_STREQ(e.what(),
+                     "helper.glsl:2: an expectation in an included file; it belongs in the test file itself");
+    }
+}
+
+TEST_F(Harness, NotesShowWhatTheFirstFailureWasMadeOf) {
+    const std::vector<GlslFailure> failures = run(R"(
+TEST(Noted) {
+    uint i = testIndex();
+    NOTE(i);
+    vec2 half_ = vec2(i, 0.5);
+    NOTE(half_ + vec2(1.0, 0.0));
+    if (i > 10000u) {
+        NOTE(i);
+    }
+    EXPECT_LT(i, 200u);
+}
+)");
+    ASSERT_THAT(failures, testing::SizeIs(1));
+    EXPECT_THAT(failures[0].message, HasSubstr("  noted in invocation 200\n    i = 200 (0xc8)\n"
+                                               "    half_ + vec2(1.0, 0.0) = (201, 0.5)\n"));
+    EXPECT_THAT(failures[0].message, HasSubstr("bound:    200 (0xc8)"));
+}
+
+TEST_F(Harness, AMacrosExpectationIsShownByTheLineThatUsesIt) {
+    const std::vector<GlslFailure> failures =
+        run("#define CHECK(x) EXPECT_GT(x, 1.0)\nTEST(Macro) {\n    CHECK(0.5);\n}\n");
+    ASSERT_THAT(failures, testing::SizeIs(1));
+    EXPECT_EQ(failures[0].line, 3u);
+    EXPECT_THAT(failures[0].message, testing::StartsWith("CHECK(0.5);\n"));
+}
+
 TEST_F(Harness, ACompileErrorNamesTheLineOfTheTestFile) {
     try {
         run("TEST(Fine) { EXPECT_TRUE(true); }\nTEST(Broken) {\n    EXPECT_TRUE(nowhere);\n}\n");
         FAIL() << "compiled";
     } catch (const CompileError& e) {
         EXPECT_THAT(e.what(), testing::ContainsRegex("harness[0-9]+_test.glsl:3: 'nowhere'"));
-        EXPECT_EQ(e.lineIn(std::string(e.what()).substr(7, std::string(e.what()).find(':', 7) - 7)), 3u);
+        EXPECT_THAT(e.place().file, testing::ContainsRegex("^harness[0-9]+_test.glsl$"));
+        EXPECT_EQ(e.place().line, 3u);
+        EXPECT_THAT(e.what(), testing::Not(HasSubstr("Linking")));
     }
 }
 
@@ -163,11 +209,15 @@ TEST_F(Harness, AFileThatCannotBeUnderstoodIsAnError) {
     };
     EXPECT_EQ(message("// TEST(InAComment) {}\n"), "x_test.glsl:1: there is no TEST(name) in this file");
     EXPECT_EQ(message("\nTEST(Open) {\n"), "x_test.glsl:2: the test's body has no end");
-    EXPECT_EQ(message("TEST(Count, 5) {}"),
-              "x_test.glsl:1: expected TEST(name) or TEST_N(name, invocations)");
+    for (const char* text :
+         {"TEST(Count, 5) {}", "TEST_N(None) {}", "TEST_N(Shift, 1 << 4) {}", "TEST(Semicolon);"}) {
+        EXPECT_EQ(
+            message(text),
+            "x_test.glsl:1: expected TEST(name) { or TEST_N(name, invocations) {, invocations being digits");
+    }
     EXPECT_EQ(message("TEST_N(None, 0) {}"), "x_test.glsl:1: a test needs at least one invocation");
     EXPECT_EQ(message("TEST(Two) {\n EXPECT_TRUE(a); EXPECT_TRUE(b);\n}"),
-              "x_test.glsl:2: two expectations on one line cannot be told apart");
+              "x_test.glsl:2: two expectations, or notes, on one line cannot be told apart");
 }
 
 TEST_F(Harness, RandomInputsAreInTheirRanges) {
@@ -242,6 +292,26 @@ TEST_F(Harness, TexelsAndConstantsReachTheLibrary) {
     EXPECT_THAT(library.evaluate<std::uint32_t>("result = fetchThing(x0).z * kFactor;",
                                                 std::vector<std::uint32_t>{0, 1}),
                 ElementsAre(300, 700));
+}
+
+TEST(Coverage, LeavesAloneWhatItCannotMark) {
+    std::vector<CoveragePoint> points;
+    const std::string text = R"(
+const float kC = true ? 1.0 : 2.0;
+highp float f() {
+    for (;;) break;
+    for(int i=0;i<4;i++) {}
+    return kC;
+}
+)";
+    EXPECT_EQ(instrument("a.glsl", text, points), R"(
+const float kC = true ? 1.0 : 2.0;
+highp float f() { coverFunction_(0u);
+    for (;;) break;
+    for(int i=0;coverCondition_(1u, i<4);i++) {}
+    return kC;
+}
+)");
 }
 
 TEST(Coverage, MarksFunctionsAndConditions) {

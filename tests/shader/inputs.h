@@ -57,7 +57,7 @@ inline std::vector<glm::vec3> randomDirections(std::size_t n, std::uint32_t seed
 }
 
 /// Of both signs, magnitudes from 2^lower to 2^upper, every binade as often as another.
-inline std::vector<float> randomFloats(std::size_t n, double lower, double upper, std::uint32_t seed = 1) {
+inline std::vector<float> randomScales(std::size_t n, double lower, double upper, std::uint32_t seed = 1) {
     std::vector<float> floats;
     for (const glm::vec2 u : randomSquare(n, seed)) {
         const double magnitude = std::exp2(lower + (upper - lower) * static_cast<double>(u.x));

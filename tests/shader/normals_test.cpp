@@ -49,7 +49,7 @@ std::vector<glm::dvec3> directions() {
     std::vector<glm::dvec3> all;
     for (const glm::vec3& d : randomDirections(1 << 16))
         all.emplace_back(d);
-    const std::vector<float> tiny = randomFloats(4096, -30.0, -2.0);
+    const std::vector<float> tiny = randomScales(4096, -30.0, -2.0);
     for (std::size_t i = 0; i < tiny.size(); ++i) {
         const double epsilon = i % 7 == 0 ? 0.0 : static_cast<double>(tiny[i]);
         const double side = i % 2 == 0 ? 1.0 : -1.0;

@@ -54,7 +54,7 @@ TEST_F(SlotSumsOracles, Gather) {
     const auto after = slotSums().evaluate<Gathered>(
         "Gathered g = x0; gather(g, x1, x2.x, x2.y, x3); result = g;", before, lights, scatterings, display);
     // A sum of seven terms of about 1.
-    expectOracles(
+    EXPECT_WITHIN_ORACLES(
         "gather", after, Budget{4, 5e-7},
         [](Gathered g, const auto& l, const auto& s, const auto& d) {
             mirror::single::gather(g, l, s.x, s.y, d);
@@ -82,7 +82,7 @@ TEST_F(SlotSumsOracles, Samples) {
     const auto after = slotSums().evaluate<SlotSums>("SlotSums s = x0; addSample(s, x1, 1024.0); result = s;",
                                                      before, samples);
     // Words are exact; the statistics' floats are sums of two numbers of about 1.
-    expectOracles(
+    EXPECT_WITHIN_ORACLES(
         "addSample", after, Budget{1, 0},
         [](SlotSums s, const auto& g) {
             mirror::single::addSample(s, g, 1024.0f);

@@ -56,8 +56,8 @@ struct Hits {
 /// down to 2^-10 of it and somewhere off the origin. At corners, on edges, inside. Rays from both sides, many
 /// of them grazing.
 Hits hits(std::size_t n) {
-    const std::vector<float> sizes = randomFloats(n, std::log2(1e-3), std::log2(1e6), 1);
-    const std::vector<float> shrinks = randomFloats(n, -10.0, 0.0, 2);
+    const std::vector<float> sizes = randomScales(n, std::log2(1e-3), std::log2(1e6), 1);
+    const std::vector<float> shrinks = randomScales(n, -10.0, 0.0, 2);
     const std::vector<glm::vec3> directions = randomDirections(5 * n, 3);
     const std::vector<glm::vec2> us = randomSquare(n, 4);
     Hits hits;
@@ -180,7 +180,7 @@ TEST(SurfaceOracles, AllFunctions) {
     }
     const std::vector<std::uint32_t> indices(h.triangles.size(), 0u);
     for (const std::uint32_t smooth : {0u, 1u}) {
-        expectOracles(
+        EXPECT_WITHIN_ORACLES(
             "surfacePoint", pointsOf(h, smooth), {1, 4e-7},
             [&](const auto&... x) { return mirror::single::surfacePoint(x..., smooth != 0u); },
             [&](const auto&... x) { return mirror::twice::surfacePoint(x..., smooth != 0u); }, h.triangles,

@@ -256,14 +256,14 @@ TEST(TransportOracles, MaterialsAreFetchedTheSame) {
     }
     const auto emission =
         library.evaluate<mirror::single::Light>("result = materialEmission(x0, x1 != 0u);", all, front);
-    expectOracles(
+    EXPECT_WITHIN_ORACLES(
         "materialEmission", emission, exact,
         [](const auto& m, std::uint32_t f) { return mirror::single::materialEmission(m, f != 0); },
         [](const auto& m, std::uint32_t f) { return mirror::twice::materialEmission(m, f != 0); }, all,
         front);
     const auto scatters =
         library.evaluate<std::uint32_t>("result = uint(materialScatters(x0, x1 != 0u));", all, front);
-    expectOracles(
+    EXPECT_WITHIN_ORACLES(
         "materialScatters", scatters, exact,
         [](const auto& m, std::uint32_t f) { return mirror::single::materialScatters(m, f != 0) ? 1u : 0u; },
         [](const auto& m, std::uint32_t f) { return mirror::twice::materialScatters(m, f != 0) ? 1u : 0u; },
@@ -285,7 +285,7 @@ TEST(TransportOracles, ConstantsLeaveOutTheSame) {
         EXPECT_ORACLES(library, multiply, exact, a, b);
         EXPECT_ORACLES(library, opaqueOf, exact, materialIndices());
         EXPECT_ORACLES(library, transparentOf, exact, materialIndices());
-        expectOracles(
+        EXPECT_WITHIN_ORACLES(
             "canScatter, canCross", library.evaluate<glm::uvec2>(kWhatCan, ws), exact,
             [](const auto& w) {
                 return glm::uvec2(mirror::single::canScatter(w), mirror::single::canCross(w));

@@ -218,7 +218,7 @@ TEST(TraverseOracles, NearestHits) {
             m::traverse(r, false, 1, 1);
         return TestHit{static_cast<float>(r.t), r.triangle, r.primitive, glm::vec2(r.barycentric), 0};
     };
-    expectOracles("traverse", scene.trace(rays), Budget{4, 1e-5}, single, twice, rays);
+    EXPECT_WITHIN_ORACLES("traverse", scene.trace(rays), Budget{4, 1e-5}, single, twice, rays);
 }
 
 TEST(TraverseOracles, BitsAndBytes) {

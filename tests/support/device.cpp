@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "host/base/error.h"
+
 namespace duolux::test {
 
 namespace {
@@ -39,7 +41,12 @@ std::string deviceSelector() {
 }
 
 Device& device() {
-    if (opened() == nullptr) opened() = std::make_unique<Device>(deviceSelector(), Validation::kOn);
+    try {
+        if (opened() == nullptr) opened() = std::make_unique<Device>(deviceSelector(), Validation::kOn);
+    } catch (const UsageError& e) {
+        // That speaks of an option of the program.
+        throw UsageError("DUOLUX_DEVICE=" + deviceSelector() + ": " + e.what());
+    }
     return *opened();
 }
 

@@ -7,8 +7,9 @@
 namespace duolux::test {
 
 /// The one device of a test executable, opened when a test first asks for it: the one that the environment
-/// variable DUOLUX_DEVICE chooses (default "cpu"), with validation on. Throws MachineError if there is none.
-/// In every executable that links duolux_test_device a test fails if there was any validation message.
+/// variable DUOLUX_DEVICE chooses (default "cpu"), with validation on. Throws MachineError or UsageError if
+/// there is none. In every executable that links duolux_test_device a test fails if there was any validation
+/// message.
 Device& device();
 
 /// What DUOLUX_DEVICE says.

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstring>
+#include <regex>
+#include <sstream>
 
 #include "host/base/file.h"
 #include "tests/shader/harness/kernel_run.h"
@@ -23,8 +24,17 @@ std::string readable(std::string report, const std::filesystem::path& scratch) {
     replaceAll(scratch.string() + "/", "");
     for (const std::filesystem::path& root : sourceRoots())
         replaceAll(root.string() + "/", "");
-    replaceAll("\n\n", "\n");
-    return report;
+    // What follows from the errors says nothing.
+    std::istringstream lines(report);
+    std::string out;
+    for (std::string line; std::getline(lines, line);) {
+        const auto has = [&](std::string_view text) { return line.find(text) != std::string::npos; };
+        if (line.empty() || has("Linking compute stage") || has("SPIR-V is not generated") ||
+            has("No code generated") || (!out.empty() && has("ERROR: kernel.comp:")))
+            continue;
+        out += line + "\n";
+    }
+    return out;
 }
 
 }  // namespace
@@ -45,15 +55,11 @@ std::string readSource(std::string_view name) {
     throw std::runtime_error(fmt::format("there is no file {}", name));
 }
 
-std::size_t CompileError::lineIn(std::string_view file) const {
-    const std::string_view report = what();
-    const std::string start = fmt::format("{}:", file);
-    for (std::size_t at = report.find(start); at != std::string_view::npos; at = report.find(start, at + 1)) {
-        std::size_t line = 0;
-        const char* digits = report.data() + at + start.size();
-        if (std::from_chars(digits, report.data() + report.size(), line).ec == std::errc()) return line;
-    }
-    return 0;
+CompileError::Place CompileError::place() const {
+    static const std::regex kPlace(R"(ERROR: ([^:\n]+):(\d+):)");
+    std::cmatch m;
+    if (!std::regex_search(what(), m, kPlace)) return {};
+    return {m[1], static_cast<std::size_t>(std::stoul(m[2]))};
 }
 
 std::vector<std::uint32_t> compileKernel(std::string_view glsl) {

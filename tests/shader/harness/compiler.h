@@ -25,8 +25,12 @@ std::string readSource(std::string_view name);
 class CompileError : public std::runtime_error {
   public:
     explicit CompileError(const std::string& report) : std::runtime_error(report) {}
-    /// Line of the first error in `file`; 0 if none is there.
-    std::size_t lineIn(std::string_view file) const;
+    struct Place {
+        std::string file;
+        std::size_t line = 0;  ///< 0: the report names none
+    };
+    /// Of the first error.
+    Place place() const;
 };
 
 /// Compiles a compute kernel for Vulkan 1.2, with the compiler that builds the program. Throws CompileError.

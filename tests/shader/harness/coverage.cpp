@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <numeric>
 #include <regex>
@@ -86,7 +87,7 @@ class Instrumenter {
     }
 
     void functions() {
-        static const std::regex kFunction(R"((?:^|\n)(?!struct )[\w\[\]]+ (\w+)\([^;{}]*\)\s*\{)");
+        static const std::regex kFunction(R"((?:^|\n)(?!struct )(?:[\w\[\]]+ )+(\w+)\([^;{}]*\)\s*\{)");
         for (std::sregex_iterator i(code_.begin(), code_.end(), kFunction), end; i != end; ++i) {
             const auto name = static_cast<std::size_t>(i->position(1));
             const auto brace = static_cast<std::size_t>(i->position() + i->length());
@@ -101,16 +102,22 @@ class Instrumenter {
             std::size_t begin = static_cast<std::size_t>(i->position() + i->length());
             std::size_t finish = closingBracket(code_, begin - 1);
             if ((*i)[1] == "for") {
-                begin = code_.find(';', begin) + 2;
+                begin = code_.find(';', begin) + 1;
                 finish = code_.find(';', begin);
             }
-            wrap(begin, finish);
+            while (begin < finish && std::isspace(static_cast<unsigned char>(code_[begin])) != 0)
+                ++begin;
+            if (begin < finish) wrap(begin, finish);  // that of for (;;) is empty
         }
     }
 
     void ternaries() {
-        for (std::size_t q = code_.find('?'); q != std::string::npos; q = code_.find('?', q + 1))
-            wrap(conditionBegin(code_, q), q);
+        // Outside of functions there are constants, which cannot note anything.
+        int depth = 0;
+        for (std::size_t i = 0; i < code_.size(); ++i) {
+            depth += code_[i] == '{' ? 1 : code_[i] == '}' ? -1 : 0;
+            if (code_[i] == '?' && depth > 0) wrap(conditionBegin(code_, i), i);
+        }
     }
 
     std::string file_;
@@ -124,6 +131,7 @@ class Instrumenter {
 class Coverage : public testing::Environment {
   public:
     Coverage(const std::filesystem::path& folder, std::filesystem::path report) : report_(std::move(report)) {
+        writeFile(report_, "");  // fails now rather than after all tests
         std::set<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(projectRoot() / folder)) {
             if (entry.path().extension() == ".glsl")
@@ -169,13 +177,19 @@ std::string coverageReport(const std::vector<CoveragePoint>& points,
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::tie(points[a].file, points[a].line) < std::tie(points[b].file, points[b].line);
     });
+    // Of a file that nothing has reached the table says enough.
+    std::set<std::string> reachedFiles;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (reached.at(2 * i) != 0 || reached.at(2 * i + 1) != 0) reachedFiles.insert(points[i].file);
+    }
     for (const std::size_t i : order) {
         const CoveragePoint& point = points[i];
         const bool first = reached.at(2 * i) != 0;
         const bool second = reached.at(2 * i + 1) != 0;
         Count& count = files[point.file];
         const auto miss = [&](std::string_view what) {
-            missing += fmt::format("{}:{}: {} {}\n", point.file, point.line, point.text, what);
+            if (reachedFiles.contains(point.file))
+                missing += fmt::format("{}:{}: {} {}\n", point.file, point.line, point.text, what);
         };
         if (point.isCondition) {
             count.outcomes += 2;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "tests/shader/harness/compiler.h"
@@ -37,18 +39,73 @@ const GlslFile::Site* GlslFile::siteAt(std::size_t line) const {
     return nullptr;
 }
 
+namespace {
+
+const std::regex& expectationPattern() {
+    static const std::regex pattern(R"(\bEXPECT_\w+\s*\()");
+    return pattern;
+}
+
+/// Where EXPECT_... or NOTE calls are. Two on a line have one place.
+std::vector<GlslFile::Site> findSites(std::string_view file, const std::string& code,
+                                      const std::regex& pattern) {
+    std::vector<GlslFile::Site> sites;
+    for (const std::cmatch& m : allMatches(code, pattern)) {
+        const auto begin = static_cast<std::size_t>(m.position());
+        const std::size_t end = closingBracket(code, begin + static_cast<std::size_t>(m.length()) - 1);
+        const std::size_t line = lineAt(code, begin);
+        if (end == std::string::npos) fail(file, line, "this has no closing parenthesis");
+        if (!sites.empty() && sites.back().lastLine >= line) {
+            fail(file, line, "two expectations, or notes, on one line cannot be told apart");
+        }
+        sites.push_back({line, lineAt(code, end), collapseSpaces(code.substr(begin, end + 1 - begin))});
+    }
+    return sites;
+}
+
+/// Lines are all that tells expectations apart, so that those of other files would be taken for this one's.
+void refuseExpectationsInIncludes(const std::string& code, std::set<std::string>& seen) {
+    static const std::regex kInclude("(?:^|\\n)\\s*#\\s*include\\s*\"([^\"]+)\"");
+    for (const std::cmatch& m : allMatches(code, kInclude)) {
+        const std::string name = m[1];
+        if (!seen.insert(name).second) continue;
+        std::string included;
+        try {
+            included = blankComments(readSource(name));
+        } catch (const std::runtime_error&) {
+            continue;  // the compiler will say that it is not there
+        }
+        for (const std::cmatch& e : allMatches(included, expectationPattern())) {
+            fail(name, lineAt(included, static_cast<std::size_t>(e.position())),
+                 "an expectation in an included file; it belongs in the test file itself");
+        }
+        refuseExpectationsInIncludes(included, seen);
+    }
+}
+
+}  // namespace
+
 GlslFile parseGlslFile(std::string_view name, std::string_view text) {
-    static const std::regex kTest(R"(\bTEST(_N)?\s*\(\s*(\w+)\s*(?:,\s*(\d+)u?\s*)?\)\s*\{)");
-    static const std::regex kExpectation(R"(\bEXPECT_\w+\s*\()");
+    static const std::regex kAnyTest(R"(\bTEST(_N)?\s*\()");
+    static const std::regex kTest(R"(TEST(_N)?\s*\(\s*(\w+)\s*(?:,\s*(\d+)u?\s*)?\)\s*\{)");
+    static const std::regex kNote(R"(\bNOTE\s*\()");
     const std::string code = blankComments(text);
     GlslFile file;
     file.name = name;
     file.lines = lineAt(code, code.size());
-    for (const std::cmatch& m : allMatches(code, kTest)) {
-        const auto begin = static_cast<std::size_t>(m.position());
+    std::istringstream lines{std::string(text)};
+    for (std::string line; std::getline(lines, line);)
+        file.source.push_back(line);
+    for (const std::cmatch& any : allMatches(code, kAnyTest)) {
+        const auto begin = static_cast<std::size_t>(any.position());
         const std::size_t line = lineAt(code, begin);
-        if (m[1].matched != m[3].matched)
-            fail(name, line, "expected TEST(name) or TEST_N(name, invocations)");
+        std::cmatch m;
+        const bool understood = std::regex_search(code.data() + begin, code.data() + code.size(), m, kTest,
+                                                  std::regex_constants::match_continuous);
+        if (!understood || m[1].matched != m[3].matched) {
+            fail(name, line,
+                 "expected TEST(name) { or TEST_N(name, invocations) {, invocations being digits");
+        }
         const std::size_t end = closingBracket(code, begin + static_cast<std::size_t>(m.length()) - 1);
         if (end == std::string::npos) fail(name, line, "the test's body has no end");
         const std::uint32_t count =
@@ -57,16 +114,10 @@ GlslFile parseGlslFile(std::string_view name, std::string_view text) {
         file.tests.push_back({m[2], line, lineAt(code, end), count});
     }
     if (file.tests.empty()) fail(name, 1, "there is no TEST(name) in this file");
-    for (const std::cmatch& m : allMatches(code, kExpectation)) {
-        const auto begin = static_cast<std::size_t>(m.position());
-        const std::size_t end = closingBracket(code, begin + static_cast<std::size_t>(m.length()) - 1);
-        const std::size_t line = lineAt(code, begin);
-        if (end == std::string::npos) fail(name, line, "the expectation has no closing parenthesis");
-        if (!file.sites.empty() && file.sites.back().lastLine >= line) {
-            fail(name, line, "two expectations on one line cannot be told apart");
-        }
-        file.sites.push_back({line, lineAt(code, end), collapseSpaces(code.substr(begin, end + 1 - begin))});
-    }
+    file.sites = findSites(name, code, expectationPattern());
+    file.notes = findSites(name, code, kNote);
+    std::set<std::string> seen;
+    refuseExpectationsInIncludes(code, seen);
     return file;
 }
 

@@ -10,7 +10,7 @@ namespace duolux::test {
 
 /// A test file: GLSL with TEST(name) { ... } blocks, see prelude.glsl.
 struct GlslFile {
-    /// One EXPECT_... of the file, which may span lines.
+    /// One EXPECT_... or NOTE of the file, which may span lines.
     struct Site {
         std::size_t firstLine, lastLine;
         std::string text;
@@ -24,14 +24,17 @@ struct GlslFile {
     std::string name;  ///< relative to a root of the source tree, as in #include
     std::size_t lines = 0;
     std::vector<Test> tests;
-    std::vector<Site> sites;
+    std::vector<Site> sites;  ///< expectations
+    std::vector<Site> notes;
+    std::vector<std::string> source;  ///< its lines
 
     /// The expectation that a line belongs to, or nullptr.
     const Site* siteAt(std::size_t line) const;
 };
 
 /// Finds the tests and the expectations of a file. Throws std::runtime_error, naming file and line, where the
-/// text cannot be understood: no test, a bracket left open, two expectations on a line.
+/// text cannot be understood: no test, a bracket left open, two expectations on a line, an expectation in a
+/// file that it includes.
 GlslFile parseGlslFile(std::string_view name, std::string_view text);
 
 /// The kernel of all its tests, chosen by the specialisation constant kSpecTest.

@@ -22,4 +22,7 @@ std::vector<GlslFailure> readExpectations(const GlslFile& file, const GlslFile::
                                           std::span<const shared::Expectation> expectations,
                                           std::size_t failedInvocations);
 
+/// What NOTE has shown of the invocation that was asked for, by lines; empty if nothing.
+std::string readNotes(const GlslFile& file, std::span<const shared::Expectation> expectations);
+
 }  // namespace duolux::test

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 #include <future>
 #include <map>
@@ -62,10 +64,11 @@ std::vector<T> contents(const Buffer& buffer, std::size_t count) {
     return out;
 }
 
-void dispatchAll(const Kernel& kernel, const GlslFile::Test& test, std::uint32_t pass) {
+void dispatchAll(const Kernel& kernel, const GlslFile::Test& test, std::uint32_t pass,
+                 std::uint32_t noted = 0) {
     for (std::uint32_t first = 0; first < test.count; first += kInvocationsPerDispatch) {
         const std::uint32_t count = std::min(kInvocationsPerDispatch, test.count - first);
-        const shared::TestDispatch push{first, test.count, hashOf(test.name), pass};
+        const shared::TestDispatch push{first, test.count, hashOf(test.name) ^ randomSeed(), pass, noted};
         runOnce(device(), test.name, [&](const vk::raii::CommandBuffer& commands) {
             kernel.dispatch(commands, push, (count + shared::kTestWorkgroup - 1) / shared::kTestWorkgroup);
         });
@@ -78,15 +81,18 @@ class GlslTest : public testing::Test {
 
   private:
     void TestBody() override {
-        std::vector<GlslFailure> failures;
         try {
-            failures = runGlslTest(file_, index_);
+            for (const GlslFailure& f : runGlslTest(file_, index_)) {
+                const std::size_t line = f.line > 0 ? f.line : file_.tests[index_].line;
+                ADD_FAILURE_AT(file_.name.c_str(), static_cast<int>(line)) << f.message;
+            }
         } catch (const CompileError& e) {
-            failures.push_back({e.lineIn(file_.name), fmt::format("does not compile:\n{}", e.what())});
-        }
-        for (const GlslFailure& f : failures) {
-            const std::size_t line = f.line > 0 ? f.line : file_.tests[index_].line;
-            ADD_FAILURE_AT(file_.name.c_str(), static_cast<int>(line)) << f.message;
+            const CompileError::Place place = e.place();
+            if (place.line > 0) {
+                ADD_FAILURE_AT(place.file.c_str(), static_cast<int>(place.line)) << e.what();
+            } else {
+                ADD_FAILURE_AT(file_.name.c_str(), static_cast<int>(file_.tests[index_].line)) << e.what();
+            }
         }
     }
 
@@ -116,11 +122,21 @@ class BrokenFile : public testing::Test {
     explicit BrokenFile(std::string why) : why_(std::move(why)) {}
 
   private:
-    void TestBody() override { FAIL() << why_; }
+    void TestBody() override {
+        // FILE:LINE: what.
+        const std::size_t colon = why_.find(':');
+        const int line = colon != std::string::npos ? std::atoi(why_.c_str() + colon + 1) : 1;
+        ADD_FAILURE_AT(why_.substr(0, colon).c_str(), line) << why_;
+    }
     std::string why_;
 };
 
 }  // namespace
+
+std::uint32_t& randomSeed() {
+    static std::uint32_t seed = 0;
+    return seed;
+}
 
 std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t index) {
     const GlslFile::Test& test = file.tests[index];
@@ -149,11 +165,28 @@ std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t index) {
         dispatchAll(kernel, test, shared::kPassFirst);
         dispatchAll(kernel, test, shared::kPassWorst);
     }
-    return readExpectations(file, test, contents<shared::Expectation>(expectations, lines), failed);
+    const std::vector<shared::Expectation> read = contents<shared::Expectation>(expectations, lines);
+    std::vector<GlslFailure> failures = readExpectations(file, test, read, failed);
+    const auto first =
+        std::find_if(read.begin(), read.end(), [](const shared::Expectation& e) { return e.failed > 0; });
+    if (file.notes.empty() || first == read.end()) return failures;
+    dispatchAll(kernel, test, shared::kPassNotes, ~first->first);
+    const std::string notes = readNotes(file, contents<shared::Expectation>(expectations, lines));
+    const auto failure = std::find_if(failures.begin(), failures.end(), [&](const GlslFailure& f) {
+        return f.message.find(fmt::format("first: invocation {}\n", ~first->first)) != std::string::npos;
+    });
+    if (failure != failures.end() && !notes.empty()) {
+        failure->message += fmt::format("  noted in invocation {}\n{}", ~first->first, notes);
+    }
+    return failures;
 }
 
 void registerGlslTests(const std::filesystem::path& folder) {
     std::set<std::string> names;
+    if (!std::filesystem::is_directory(projectRoot() / folder)) {
+        throw std::runtime_error(
+            fmt::format("{}: no such folder of tests", (projectRoot() / folder).string()));
+    }
     for (const auto& entry : std::filesystem::directory_iterator(projectRoot() / folder)) {
         if (entry.path().filename().string().ends_with("_test.glsl"))
             names.insert((folder / entry.path().filename()).string());

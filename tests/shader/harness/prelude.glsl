@@ -16,56 +16,71 @@ layout(push_constant, scalar) uniform DispatchBlock { TestDispatch testDispatch;
 #define TEST(name) void test_##name()
 #define TEST_N(name, count) void test_##name()
 
-// Arguments: float, vec2 to vec4; EXPECT_EQ and EXPECT_NE also bool, int, uint and their vectors. Every component counts.
-#define EXPECT_TRUE(condition) expectEqual(__LINE__, value(condition), value(true))
-#define EXPECT_FALSE(condition) expectEqual(__LINE__, value(condition), value(false))
-#define EXPECT_EQ(actual, expected) expectEqual(__LINE__, value(actual), value(expected))
-#define EXPECT_NE(actual, other) expectDifferent(__LINE__, value(actual), value(other))
-#define EXPECT_NEAR(actual, expected, tolerance) expectNear(__LINE__, value(actual), value(expected), tolerance)
-#define EXPECT_ULP(actual, expected, ulps) expectUlp(__LINE__, value(actual), value(expected), float(ulps))
-#define EXPECT_LT(actual, bound) expectBelow(__LINE__, value(actual), value(bound), true)
-#define EXPECT_LE(actual, bound) expectBelow(__LINE__, value(actual), value(bound), false)
-#define EXPECT_GT(actual, bound) expectAbove(__LINE__, value(actual), value(bound), true)
-#define EXPECT_GE(actual, bound) expectAbove(__LINE__, value(actual), value(bound), false)
+// Arguments: float, vec2 to vec4, and where they are compared for order uint to uvec4, too; EXPECT_EQ and EXPECT_NE also
+// take bool, int and their vectors. Both must have as many components, and every one counts.
+#define EXPECT_TRUE(condition) expectEqual_(__LINE__, value_(condition), value_(true))
+#define EXPECT_FALSE(condition) expectEqual_(__LINE__, value_(condition), value_(false))
+#define EXPECT_EQ(actual, expected) expectEqual_(__LINE__, value_(actual), value_(expected))
+#define EXPECT_NE(actual, other) expectDifferent_(__LINE__, value_(actual), value_(other))
+#define EXPECT_NEAR(actual, expected, tolerance) expectNear_(__LINE__, value_(actual), value_(expected), tolerance)
+#define EXPECT_ULP(actual, expected, ulps) expectUlp_(__LINE__, value_(actual), value_(expected), float(ulps))
+#define EXPECT_LT(actual, bound) expectBelow_(__LINE__, value_(actual), value_(bound), true)
+#define EXPECT_LE(actual, bound) expectBelow_(__LINE__, value_(actual), value_(bound), false)
+#define EXPECT_GT(actual, bound) expectAbove_(__LINE__, value_(actual), value_(bound), true)
+#define EXPECT_GE(actual, bound) expectAbove_(__LINE__, value_(actual), value_(bound), false)
+
+// Shows a value, as long as something fails, of the first invocation in which it does: what an expectation was made of.
+#define NOTE(shown) note_(__LINE__, value_(shown))
 
 uint testIndex() { return testDispatch.firstInvocation + gl_GlobalInvocationID.x; }
 uint testCount() { return testDispatch.count; }
 
 // A value of any type that expectations take.
-struct BoolValue { uvec4 v; uint components; };
-struct IntValue { ivec4 v; uint components; };
-struct UintValue { uvec4 v; uint components; };
-struct FloatValue { vec4 v; uint components; };
-BoolValue value(bool a) { return BoolValue(uvec4(a ? 1u : 0u, 0u, 0u, 0u), 1u); }
-BoolValue value(bvec2 a) { return BoolValue(uvec4(uvec2(a), 0u, 0u), 2u); }
-BoolValue value(bvec3 a) { return BoolValue(uvec4(uvec3(a), 0u), 3u); }
-BoolValue value(bvec4 a) { return BoolValue(uvec4(a), 4u); }
-IntValue value(int a) { return IntValue(ivec4(a, 0, 0, 0), 1u); }
-IntValue value(ivec2 a) { return IntValue(ivec4(a, 0, 0), 2u); }
-IntValue value(ivec3 a) { return IntValue(ivec4(a, 0), 3u); }
-IntValue value(ivec4 a) { return IntValue(a, 4u); }
-UintValue value(uint a) { return UintValue(uvec4(a, 0u, 0u, 0u), 1u); }
-UintValue value(uvec2 a) { return UintValue(uvec4(a, 0u, 0u), 2u); }
-UintValue value(uvec3 a) { return UintValue(uvec4(a, 0u), 3u); }
-UintValue value(uvec4 a) { return UintValue(a, 4u); }
-FloatValue value(float a) { return FloatValue(vec4(a, 0.0, 0.0, 0.0), 1u); }
-FloatValue value(vec2 a) { return FloatValue(vec4(a, 0.0, 0.0), 2u); }
-FloatValue value(vec3 a) { return FloatValue(vec4(a, 0.0), 3u); }
-FloatValue value(vec4 a) { return FloatValue(a, 4u); }
+struct BoolValue_ { uvec4 v; uint components; };
+struct IntValue_ { ivec4 v; uint components; };
+struct UintValue_ { uvec4 v; uint components; };
+struct FloatValue_ { vec4 v; uint components; };
+BoolValue_ value_(bool a) { return BoolValue_(uvec4(a ? 1u : 0u, 0u, 0u, 0u), 1u); }
+BoolValue_ value_(bvec2 a) { return BoolValue_(uvec4(uvec2(a), 0u, 0u), 2u); }
+BoolValue_ value_(bvec3 a) { return BoolValue_(uvec4(uvec3(a), 0u), 3u); }
+BoolValue_ value_(bvec4 a) { return BoolValue_(uvec4(a), 4u); }
+IntValue_ value_(int a) { return IntValue_(ivec4(a, 0, 0, 0), 1u); }
+IntValue_ value_(ivec2 a) { return IntValue_(ivec4(a, 0, 0), 2u); }
+IntValue_ value_(ivec3 a) { return IntValue_(ivec4(a, 0), 3u); }
+IntValue_ value_(ivec4 a) { return IntValue_(a, 4u); }
+UintValue_ value_(uint a) { return UintValue_(uvec4(a, 0u, 0u, 0u), 1u); }
+UintValue_ value_(uvec2 a) { return UintValue_(uvec4(a, 0u, 0u), 2u); }
+UintValue_ value_(uvec3 a) { return UintValue_(uvec4(a, 0u), 3u); }
+UintValue_ value_(uvec4 a) { return UintValue_(a, 4u); }
+FloatValue_ value_(float a) { return FloatValue_(vec4(a, 0.0, 0.0, 0.0), 1u); }
+FloatValue_ value_(vec2 a) { return FloatValue_(vec4(a, 0.0, 0.0), 2u); }
+FloatValue_ value_(vec3 a) { return FloatValue_(vec4(a, 0.0), 3u); }
+FloatValue_ value_(vec4 a) { return FloatValue_(a, 4u); }
 
-Evidence evidence(uvec4 actual, uvec4 expected, uint type, uint components, float difference, float allowed) {
+Evidence evidence_(uvec4 actual, uvec4 expected, uint type, uvec2 components, float difference, float allowed) {
     return Evidence(uint[4](actual.x, actual.y, actual.z, actual.w),
-                    uint[4](expected.x, expected.y, expected.z, expected.w), type, components, difference, allowed);
+                    uint[4](expected.x, expected.y, expected.z, expected.w), type, components.x, components.y, difference,
+                    allowed);
 }
 
+void note_(int line, uvec4 bits, uint type, uint components) {
+    if (testDispatch.pass != kPassNotes || testIndex() != testDispatch.noted || line >= expectations.length()) return;
+    expectations[line].firstSeen = evidence_(bits, bits, type, uvec2(components), 0.0, 0.0);
+}
+void note_(int line, BoolValue_ a) { note_(line, a.v, kValueBool, a.components); }
+void note_(int line, IntValue_ a) { note_(line, uvec4(a.v), kValueInt, a.components); }
+void note_(int line, UintValue_ a) { note_(line, a.v, kValueUint, a.components); }
+void note_(int line, FloatValue_ a) { note_(line, floatBitsToUint(a.v), kValueFloat, a.components); }
+
 // On the bits: what a driver makes of NaN in comparisons is its own affair.
-bool isNotANumber(float a) { return (floatBitsToUint(a) & 0x7fffffffu) > 0x7f800000u; }
+bool isNotANumber_(float a) { return (floatBitsToUint(a) & 0x7fffffffu) > 0x7f800000u; }
 
 // The difference is not negative, or not a number. Line 0 stands for those of an included file that is longer.
-void expectation(int line, bool ok, Evidence seen) {
+void expectation_(int line, bool ok, Evidence seen) {
     line = line < expectations.length() ? line : 0;
+    ok = ok && seen.components == seen.expectedComponents;
     uint invocation = testIndex();
-    bool nan = isNotANumber(seen.difference);
+    bool nan = isNotANumber_(seen.difference);
     uint bits = nan ? 0x7fffffffu : floatBitsToUint(seen.difference);
     if (testDispatch.pass == kPassCount) {
         atomicAdd(expectations[line].evaluated, 1u);
@@ -82,22 +97,22 @@ void expectation(int line, bool ok, Evidence seen) {
     } else if (!ok && testDispatch.pass == kPassFirst) {
         if (~invocation == expectations[line].first) expectations[line].firstSeen = seen;
         if (bits == expectations[line].worst) atomicMax(expectations[line].worstAt, ~invocation);
-    } else if (!ok && ~invocation == expectations[line].worstAt && bits == expectations[line].worst) {
+    } else if (testDispatch.pass == kPassWorst && !ok && ~invocation == expectations[line].worstAt && bits == expectations[line].worst) {
         expectations[line].worstSeen = seen;
     }
 }
 
-float largest(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
+float largest_(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 
 // Differences: of equal values 0, also of infinities; not a number if a component of either is not.
-float difference(float a, float b) {
-    if (isNotANumber(a) || isNotANumber(b)) return uintBitsToFloat(0x7fc00000u);
+float difference_(float a, float b) {
+    if (isNotANumber_(a) || isNotANumber_(b)) return uintBitsToFloat(0x7fc00000u);
     return a == b ? 0.0 : abs(a - b);
 }
 
 // In units of the last place: how many floats further.
-float ulps(float a, float b) {
-    if (isNotANumber(a) || isNotANumber(b)) return uintBitsToFloat(0x7fc00000u);
+float ulps_(float a, float b) {
+    if (isNotANumber_(a) || isNotANumber_(b)) return uintBitsToFloat(0x7fc00000u);
     uint x = floatBitsToUint(a);
     uint y = floatBitsToUint(b);
     uint magnitudeX = x & 0x7fffffffu;
@@ -107,85 +122,91 @@ float ulps(float a, float b) {
 }
 
 // Of the components the largest; one that is not a number outweighs all.
-float largestOf(vec4 d) {
-    bool nan = isNotANumber(d.x) || isNotANumber(d.y) || isNotANumber(d.z) || isNotANumber(d.w);
-    return nan ? uintBitsToFloat(0x7fc00000u) : largest(d);
+float largestOf_(vec4 d) {
+    bool nan = isNotANumber_(d.x) || isNotANumber_(d.y) || isNotANumber_(d.z) || isNotANumber_(d.w);
+    return nan ? uintBitsToFloat(0x7fc00000u) : largest_(d);
 }
 
-vec4 ulps(vec4 a, vec4 b) { return vec4(ulps(a.x, b.x), ulps(a.y, b.y), ulps(a.z, b.z), ulps(a.w, b.w)); }
+vec4 ulps_(vec4 a, vec4 b) { return vec4(ulps_(a.x, b.x), ulps_(a.y, b.y), ulps_(a.z, b.z), ulps_(a.w, b.w)); }
 
-float wordDifference(uvec4 a, uvec4 b) {
+float wordDifference_(uvec4 a, uvec4 b) {
     uvec4 d = max(a, b) - min(a, b);
     return float(max(max(d.x, d.y), max(d.z, d.w)));
 }
 
-void expectEqual(int line, BoolValue a, BoolValue b) {
-    expectation(line, a.v == b.v, evidence(a.v, b.v, kValueBool, a.components, wordDifference(a.v, b.v), 0.0));
+void expectEqual_(int line, BoolValue_ a, BoolValue_ b) {
+    expectation_(line, a.v == b.v, evidence_(a.v, b.v, kValueBool, uvec2(a.components, b.components), wordDifference_(a.v, b.v), 0.0));
 }
-void expectEqual(int line, IntValue a, IntValue b) {
-    float off = wordDifference(uvec4(a.v) ^ 0x80000000u, uvec4(b.v) ^ 0x80000000u);
-    expectation(line, a.v == b.v, evidence(uvec4(a.v), uvec4(b.v), kValueInt, a.components, off, 0.0));
+void expectEqual_(int line, IntValue_ a, IntValue_ b) {
+    float off = wordDifference_(uvec4(a.v) ^ 0x80000000u, uvec4(b.v) ^ 0x80000000u);
+    expectation_(line, a.v == b.v, evidence_(uvec4(a.v), uvec4(b.v), kValueInt, uvec2(a.components, b.components), off, 0.0));
 }
-void expectEqual(int line, UintValue a, UintValue b) {
-    expectation(line, a.v == b.v, evidence(a.v, b.v, kValueUint, a.components, wordDifference(a.v, b.v), 0.0));
-}
-
-Evidence floatEvidence(FloatValue a, FloatValue b, float off, float allowed) {
-    return evidence(floatBitsToUint(a.v), floatBitsToUint(b.v), kValueFloat, a.components, off, allowed);
-}
-void expectUlp(int line, FloatValue a, FloatValue b, float allowed) {
-    float off = largestOf(ulps(a.v, b.v));
-    expectation(line, !isNotANumber(off) && off <= allowed, floatEvidence(a, b, off, allowed));
-}
-void expectEqual(int line, FloatValue a, FloatValue b) { expectUlp(line, a, b, 0.0); }
-void expectNear(int line, FloatValue a, FloatValue b, float allowed) {
-    float off = largestOf(vec4(difference(a.v.x, b.v.x), difference(a.v.y, b.v.y), difference(a.v.z, b.v.z),
-                               difference(a.v.w, b.v.w)));
-    expectation(line, !isNotANumber(off) && off <= allowed, floatEvidence(a, b, off, allowed));
+void expectEqual_(int line, UintValue_ a, UintValue_ b) {
+    expectation_(line, a.v == b.v, evidence_(a.v, b.v, kValueUint, uvec2(a.components, b.components), wordDifference_(a.v, b.v), 0.0));
 }
 
-void expectDifferent(int line, BoolValue a, BoolValue b) {
-    expectation(line, a.v != b.v, evidence(a.v, b.v, kValueBool, a.components, 0.0, 0.0));
+Evidence floatEvidence_(FloatValue_ a, FloatValue_ b, float off, float allowed) {
+    return evidence_(floatBitsToUint(a.v), floatBitsToUint(b.v), kValueFloat, uvec2(a.components, b.components), off, allowed);
 }
-void expectDifferent(int line, IntValue a, IntValue b) {
-    expectation(line, a.v != b.v, evidence(uvec4(a.v), uvec4(b.v), kValueInt, a.components, 0.0, 0.0));
+void expectUlp_(int line, FloatValue_ a, FloatValue_ b, float allowed) {
+    float off = largestOf_(ulps_(a.v, b.v));
+    expectation_(line, !isNotANumber_(off) && off <= allowed, floatEvidence_(a, b, off, allowed));
 }
-void expectDifferent(int line, UintValue a, UintValue b) {
-    expectation(line, a.v != b.v, evidence(a.v, b.v, kValueUint, a.components, 0.0, 0.0));
+void expectEqual_(int line, FloatValue_ a, FloatValue_ b) { expectUlp_(line, a, b, 0.0); }
+void expectNear_(int line, FloatValue_ a, FloatValue_ b, float allowed) {
+    float off = largestOf_(vec4(difference_(a.v.x, b.v.x), difference_(a.v.y, b.v.y), difference_(a.v.z, b.v.z),
+                               difference_(a.v.w, b.v.w)));
+    expectation_(line, !isNotANumber_(off) && off <= allowed, floatEvidence_(a, b, off, allowed));
 }
-void expectDifferent(int line, FloatValue a, FloatValue b) {
-    float off = largestOf(ulps(a.v, b.v));
-    expectation(line, isNotANumber(off) || off != 0.0, floatEvidence(a, b, off, 0.0));
+
+void expectDifferent_(int line, BoolValue_ a, BoolValue_ b) {
+    expectation_(line, a.v != b.v, evidence_(a.v, b.v, kValueBool, uvec2(a.components, b.components), 0.0, 0.0));
+}
+void expectDifferent_(int line, IntValue_ a, IntValue_ b) {
+    expectation_(line, a.v != b.v, evidence_(uvec4(a.v), uvec4(b.v), kValueInt, uvec2(a.components, b.components), 0.0, 0.0));
+}
+void expectDifferent_(int line, UintValue_ a, UintValue_ b) {
+    expectation_(line, a.v != b.v, evidence_(a.v, b.v, kValueUint, uvec2(a.components, b.components), 0.0, 0.0));
+}
+void expectDifferent_(int line, FloatValue_ a, FloatValue_ b) {
+    float off = largestOf_(ulps_(a.v, b.v));
+    expectation_(line, isNotANumber_(off) || off != 0.0, floatEvidence_(a, b, off, 0.0));
 }
 
 // Every component of `a` is below that of `b` (or equal, unless strict); the difference is how far it is beyond.
-void expectOrder(int line, FloatValue lower, FloatValue upper, bool strict, Evidence seen) {
+void expectOrder_(int line, FloatValue_ lower, FloatValue_ upper, bool strict, Evidence seen) {
     bool ok = true;
     vec4 off = vec4(0.0);
     for (uint i = 0u; i < lower.components; i++) {
-        off[i] = difference(lower.v[i], upper.v[i]);
+        off[i] = difference_(lower.v[i], upper.v[i]);
         bool ordered = strict ? lower.v[i] < upper.v[i] : lower.v[i] <= upper.v[i];
-        ok = ok && ordered && !isNotANumber(off[i]);
+        ok = ok && ordered && !isNotANumber_(off[i]);
         off[i] = ordered ? 0.0 : off[i];
     }
-    seen.difference = largestOf(off);
-    expectation(line, ok, seen);
+    seen.difference = largestOf_(off);
+    expectation_(line, ok, seen);
 }
-void expectBelow(int line, FloatValue a, FloatValue b, bool strict) {
-    expectOrder(line, a, b, strict, floatEvidence(a, b, 0.0, 0.0));
+void expectBelow_(int line, FloatValue_ a, FloatValue_ b, bool strict) {
+    expectOrder_(line, a, b, strict, floatEvidence_(a, b, 0.0, 0.0));
 }
-void expectAbove(int line, FloatValue a, FloatValue b, bool strict) {
-    expectOrder(line, b, a, strict, floatEvidence(a, b, 0.0, 0.0));
+void expectAbove_(int line, FloatValue_ a, FloatValue_ b, bool strict) {
+    expectOrder_(line, b, a, strict, floatEvidence_(a, b, 0.0, 0.0));
 }
-void expectWordBelow(int line, uint lower, uint upper, bool strict, Evidence seen) {
-    seen.difference = lower > upper ? float(lower - upper) : 0.0;
-    expectation(line, strict ? lower < upper : lower <= upper, seen);
+void expectWordsInOrder_(int line, uvec4 lower, uvec4 upper, uint components, bool strict, Evidence seen) {
+    bool ok = true;
+    for (uint i = 0u; i < components; i++) {
+        ok = ok && (strict ? lower[i] < upper[i] : lower[i] <= upper[i]);
+        seen.difference = max(seen.difference, lower[i] > upper[i] ? float(lower[i] - upper[i]) : 0.0);
+    }
+    expectation_(line, ok, seen);
 }
-void expectBelow(int line, UintValue a, UintValue b, bool strict) {
-    expectWordBelow(line, a.v.x, b.v.x, strict, evidence(a.v, b.v, kValueUint, 1u, 0.0, 0.0));
+void expectBelow_(int line, UintValue_ a, UintValue_ b, bool strict) {
+    Evidence seen = evidence_(a.v, b.v, kValueUint, uvec2(a.components, b.components), 0.0, 0.0);
+    expectWordsInOrder_(line, a.v, b.v, a.components, strict, seen);
 }
-void expectAbove(int line, UintValue a, UintValue b, bool strict) {
-    expectWordBelow(line, b.v.x, a.v.x, strict, evidence(a.v, b.v, kValueUint, 1u, 0.0, 0.0));
+void expectAbove_(int line, UintValue_ a, UintValue_ b, bool strict) {
+    Evidence seen = evidence_(a.v, b.v, kValueUint, uvec2(a.components, b.components), 0.0, 0.0);
+    expectWordsInOrder_(line, b.v, a.v, a.components, strict, seen);
 }
 
 #endif

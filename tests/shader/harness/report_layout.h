@@ -7,10 +7,10 @@
 DUOLUX_BEGIN
 
 DUOLUX_CONST uint kTestWorkgroup = 64u;
-DUOLUX_CONST uint kBindingExpectations = 0u;  // storage: Expectation, one a line of the test file
-DUOLUX_CONST uint kBindingInvocations = 1u;   // storage: a bit for each invocation that failed
-DUOLUX_CONST uint kBindingCoverage = 99u;     // storage: see coverage.glsl
-DUOLUX_CONST uint kSpecTest = 1000u;          // index of the test within its file
+DUOLUX_CONST uint kBindingExpectations = 97u;  // storage: Expectation, one a line of the test file
+DUOLUX_CONST uint kBindingInvocations = 98u;   // storage: a bit for each invocation that failed
+DUOLUX_CONST uint kBindingCoverage = 99u;      // storage: see coverage.glsl
+DUOLUX_CONST uint kSpecTest = 1000u;           // index of the test within its file
 
 // How far failures are off, as a multiple of what is allowed (of 1 where nothing is): 1 to 2 times, 2 to 4
 // times, and so on; the last but one is open, the last counts those that are not a number.
@@ -27,13 +27,15 @@ DUOLUX_CONST uint kValueFloat = 3u;
 DUOLUX_CONST uint kPassCount = 0u;
 DUOLUX_CONST uint kPassFirst = 1u;
 DUOLUX_CONST uint kPassWorst = 2u;
+DUOLUX_CONST uint kPassNotes = 3u;
 
 // The values that one invocation saw.
 struct Evidence {
     uint actual[4];
     uint expected[4];
     uint type;        // kValue...
-    uint components;  // 0: nothing was noted
+    uint components;  // of actual; 0: nothing was noted
+    uint expectedComponents;
     float difference;
     float allowed;
 };
@@ -54,10 +56,11 @@ struct TestDispatch {
     uint count;  // all invocations of the test
     uint seed;   // of the random inputs
     uint pass;
+    uint noted;  // invocation whose values NOTE shows
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Evidence) == 48 && sizeof(Expectation) == 25 * 4 + 2 * 48);
+static_assert(sizeof(Evidence) == 52 && sizeof(Expectation) == 25 * 4 + 2 * 52);
 static_assert(sizeof(Expectation::census) == kCensusBins * sizeof(uint));
 #endif
 

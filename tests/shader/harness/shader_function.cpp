@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "host/vk/commands.h"
 #include "tests/shader/harness/compiler.h"
@@ -25,6 +26,15 @@ const std::vector<std::uint32_t>& compiled(const std::string& glsl) {
     return found->second;
 }
 
+std::string numbered(const std::string& text) {
+    std::istringstream lines(text);
+    std::string out;
+    int number = 0;
+    for (std::string line; std::getline(lines, line);)
+        out += fmt::format("{:>4} {}\n", ++number, line);
+    return out;
+}
+
 }  // namespace
 
 ShaderLibrary& ShaderLibrary::texels(std::string_view function, std::span<const std::byte> bytes) {
@@ -38,7 +48,9 @@ ShaderLibrary& ShaderLibrary::texels(std::string_view function, std::span<const 
 std::size_t ShaderLibrary::invocations(std::initializer_list<std::size_t> sizes) {
     std::size_t count = 1;
     for (const std::size_t size : sizes) {
-        if (size != 1 && count != 1 && size != count) throw std::logic_error("arguments of different sizes");
+        if (size != 1 && count != 1 && size != count) {
+            throw std::logic_error(fmt::format("arguments of different sizes, {} and {}", count, size));
+        }
         if (size != 1) count = size;
     }
     return count;
@@ -79,14 +91,21 @@ std::string ShaderLibrary::kernel(std::string_view statements, const std::vector
         "layout(push_constant, scalar) uniform Push {{ uint count_; }};\n"
         "void main() {{\n    uint invocation_ = gl_GlobalInvocationID.x;\n    if (invocation_ >= count_) "
         "return;\n{}"
-        "    {} result;\n#line 1\n{}\n    results_[invocation_] = result;\n}}\n",
+        "    {} result;\n    {}\n    results_[invocation_] = result;\n}}\n",
         values, result.type, statements);
     return glsl;
 }
 
 void ShaderLibrary::run(std::string_view statements, const std::vector<Array>& arguments, const Array& result,
                         std::span<std::byte> results) const {
-    const std::vector<std::uint32_t>& spirv = compiled(kernel(statements, arguments, result));
+    const std::string glsl = kernel(statements, arguments, result);
+    const std::vector<std::uint32_t>* spirv = nullptr;
+    try {
+        spirv = &compiled(glsl);
+    } catch (const CompileError& e) {
+        throw CompileError(fmt::format("in a call of the host, {}\n{}of the kernel\n{}", statements, e.what(),
+                                       numbered(glsl)));
+    }
     std::vector<Specialization> constants;
     for (const auto& [id, value] : constants_)
         constants.push_back({id, value});
@@ -109,7 +128,7 @@ void ShaderLibrary::run(std::string_view statements, const std::vector<Array>& a
         bindings.push_back({static_cast<std::uint32_t>(bindings.size()), &output});
         for (const Buffer& b : texels)
             bindings.push_back({static_cast<std::uint32_t>(bindings.size()), &b});
-        const Kernel kernel = harnessKernel(statements, spirv, bindings, constants, sizeof(std::uint32_t));
+        const Kernel kernel = harnessKernel(statements, *spirv, bindings, constants, sizeof(std::uint32_t));
         runOnce(device(), statements, [&](const vk::raii::CommandBuffer& commands) {
             const auto push = static_cast<std::uint32_t>(count);
             kernel.dispatch(commands, push, (push + shared::kTestWorkgroup - 1) / shared::kTestWorkgroup);

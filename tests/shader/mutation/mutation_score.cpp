@@ -28,6 +28,7 @@ struct Mutation {
     std::size_t line = 0;
     std::string file, before, after, why, equivalent;
     std::string caughtBy;  ///< the first test that failed; empty: it survived
+    bool compiles = true;
 };
 
 std::string trimmed(std::string_view text) {
@@ -38,10 +39,10 @@ std::string trimmed(std::string_view text) {
 
 /// The fields of a line; the change itself may have " | " in it. Nothing if it is not a mutation.
 std::optional<Mutation> parse(const std::string& text) {
-    static const std::regex kLine(R"((\S+) \| (.*?) => (.*?) \| ([^|]*?)( \| equivalent: ([^|]*))?)");
+    static const std::regex kLine(R"((\S+) \| (.*?) => (.*?) \| ([^|]*?)( \| equivalent: ([^|]+))?)");
     std::smatch m;
     if (!std::regex_match(text, m, kLine)) return std::nullopt;
-    return Mutation{0, m[1], trimmed(m[2].str()), trimmed(m[3].str()), m[4], m[6], ""};
+    return Mutation{0, m[1], trimmed(m[2].str()), trimmed(m[3].str()), m[4], m[6], "", true};
 }
 
 /// The file with the mutation in it. Throws InputError unless what is to be replaced is there exactly once.
@@ -72,6 +73,10 @@ std::vector<Mutation> readList(const std::string& list, const std::filesystem::p
             throw InputError(list, fmt::format("line {}", number), "not a mutation",
                              "expected FILE | OLD => NEW | WHY [| equivalent: REASON]");
         }
+        if (mutation->before == mutation->after) {
+            throw InputError(list, fmt::format("line {}", number), "changes nothing",
+                             "expected NEW to differ from OLD");
+        }
         mutation->line = number;
         mutations.push_back(std::move(*mutation));
         mutate(list, mutations.back(), shaders);
@@ -79,18 +84,32 @@ std::vector<Mutation> readList(const std::string& list, const std::filesystem::p
     return mutations;
 }
 
-/// Name of the first test that fails with these sources; empty if all pass.
-std::string firstFailure(const std::string& tests, const std::filesystem::path& sources,
-                         const std::string& filter) {
+/// Runs the tests with these sources, and notes in the mutation what comes of it.
+void runTests(const std::string& tests, const std::filesystem::path& sources, const std::string& filter,
+              Mutation& m) {
     const test::ProgramResult result = test::runProgram(
         tests, sources, {"--sources", sources.string(), "--gtest_brief=1", "--gtest_filter=" + filter},
         std::nullopt, std::chrono::seconds(300));
-    if (result.status == 0) return "";
+    if (result.status == 0) return;
+    // A mutation that is no program is no test of the tests.
+    m.compiles = result.out.find("ERROR: shaders/" + m.file + ":") == std::string::npos;
     const std::string mark = "[  FAILED  ] ";
     const std::size_t at = result.out.find(mark);
-    if (at == std::string::npos) return fmt::format("exit status {}", result.status);
+    if (at == std::string::npos) {
+        // Nothing has the name of this file: the whole suite will tell.
+        if (result.err.find("no test's name matches") == std::string::npos) {
+            m.caughtBy = fmt::format("exit status {}", result.status);
+        }
+        return;
+    }
     const std::size_t begin = at + mark.size();
-    return result.out.substr(begin, result.out.find_first_of(" ,\n", begin) - begin);
+    m.caughtBy = result.out.substr(begin, result.out.find_first_of(" ,\n", begin) - begin);
+}
+
+std::string verdict(const Mutation& m) {
+    if (!m.compiles) return "DOES NOT COMPILE";
+    if (!m.caughtBy.empty()) return "caught by " + m.caughtBy;
+    return m.equivalent.empty() ? "SURVIVED" : "equivalent: " + m.equivalent;
 }
 
 }  // namespace
@@ -114,12 +133,15 @@ int main(int argc, char** argv) {
         std::vector<Mutation> mutations = readList(list, shaders);
         if (check) return 0;
         std::erase_if(mutations, [&](const Mutation& m) { return m.file.find(only) == std::string::npos; });
+        if (mutations.empty())
+            throw UsageError(fmt::format("no mutation of a file whose name contains \"{}\"", only));
+        const std::string listName = std::filesystem::proximate(list).string();
         setenv("GTEST_FAIL_FAST", "1", 1);
         const std::string oracles = "-*Oracles*:Harness*:Coverage*:TestDevice*";
-        if (const std::string failure = firstFailure(tests, shaders, "*" + oracles); !failure.empty()) {
-            fmt::print(stderr, "without any mutation {} fails already\n", failure);
-            return 1;
-        }
+        Mutation none;
+        runTests(tests, shaders, "*" + oracles, none);
+        if (!none.caughtBy.empty())
+            throw MachineError(fmt::format("without any mutation {} fails already", none.caughtBy));
         std::atomic<std::size_t> next{0};
         std::mutex printing;
         const auto work = [&] {
@@ -130,15 +152,13 @@ int main(int argc, char** argv) {
                 std::filesystem::create_directories(file.parent_path());
                 writeFile(file, mutate(list, m, shaders));
                 // Most are caught by tests of the file's own name.
-                m.caughtBy = firstFailure(
-                    tests, folder.path(),
-                    test::pascalCase(std::filesystem::path(m.file).stem().string()) + "*" + oracles);
-                if (m.caughtBy.empty()) m.caughtBy = firstFailure(tests, folder.path(), "*" + oracles);
+                const std::string suites =
+                    test::pascalCase(std::filesystem::path(m.file).stem().string()) + "*";
+                runTests(tests, folder.path(), suites + oracles, m);
+                if (m.caughtBy.empty()) runTests(tests, folder.path(), "*" + oracles, m);
                 const std::lock_guard lock(printing);
-                fmt::print("{}:{}: {}: {} => {} ({}): {}\n", list, m.line, m.file, m.before, m.after, m.why,
-                           !m.caughtBy.empty()    ? "caught by " + m.caughtBy
-                           : m.equivalent.empty() ? "SURVIVED"
-                                                  : m.equivalent);
+                fmt::print("{}:{}: {}: {} => {} ({}): {}\n", listName, m.line, m.file, m.before, m.after,
+                           m.why, verdict(m));
                 std::fflush(stdout);
             }
         };
@@ -147,18 +167,22 @@ int main(int argc, char** argv) {
             threads.emplace_back(work);
         for (std::thread& thread : threads)
             thread.join();
-        const auto count = [&](auto predicate) {
-            return static_cast<std::size_t>(std::count_if(mutations.begin(), mutations.end(), predicate));
-        };
-        const std::size_t caught = count([](const Mutation& m) { return !m.caughtBy.empty(); });
-        const std::size_t equivalent =
-            count([](const Mutation& m) { return m.caughtBy.empty() && !m.equivalent.empty(); });
-        const std::size_t counted = mutations.size() - equivalent;
+        std::size_t caught = 0, equivalent = 0, broken = 0;
+        for (const Mutation& m : mutations) {
+            broken += m.compiles ? 0 : 1;
+            caught += m.compiles && !m.caughtBy.empty() ? 1 : 0;
+            equivalent += m.caughtBy.empty() && !m.equivalent.empty() ? 1 : 0;
+            if (!m.compiles || (m.caughtBy.empty() && m.equivalent.empty())) {
+                fmt::print("{}:{}: {} => {}: {}\n", listName, m.line, m.before, m.after, verdict(m));
+            }
+        }
+        const std::size_t counted = mutations.size() - equivalent - broken;
         const double score =
             counted > 0 ? 100.0 * static_cast<double>(caught) / static_cast<double>(counted) : 0.0;
-        fmt::print("{} of {} mutations caught: {:.1f} % (goal {} %); {} more are equivalent\n", caught,
-                   counted, score, goal, equivalent);
-        return score >= goal ? 0 : 1;
+        fmt::print(
+            "{} of {} mutations caught: {:.1f} % (goal {} %); {} more are equivalent, {} do not compile\n",
+            caught, counted, score, goal, equivalent, broken);
+        return score >= goal && broken == 0 ? 0 : 1;
     } catch (const Error& e) {
         fmt::print(stderr, "mutation_score: {}\n", e.what());
         return static_cast<int>(e.status());
