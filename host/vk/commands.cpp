@@ -57,10 +57,12 @@ void CommandSlot::submit(std::string_view stage,
         }
         record(commands_);
         if (timed) commands_.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
-        // What the device wrote becomes visible to the host.
-        const vk::MemoryBarrier toHost(vk::AccessFlagBits::eMemoryWrite, vk::AccessFlagBits::eHostRead);
-        commands_.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eHost,
-                                  {}, toHost, {}, {});
+        // What the device wrote becomes visible to the host, and to what is submitted later.
+        using Access = vk::AccessFlagBits;
+        const vk::MemoryBarrier written(Access::eMemoryWrite,
+                                        Access::eHostRead | Access::eMemoryRead | Access::eMemoryWrite);
+        const vk::PipelineStageFlags all = vk::PipelineStageFlagBits::eAllCommands;
+        commands_.pipelineBarrier(all, all | vk::PipelineStageFlagBits::eHost, {}, written, {}, {});
         commands_.end();
         device_->handle().resetFences(*fence_);
         vk::SubmitInfo submit;

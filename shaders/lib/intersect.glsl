@@ -36,10 +36,11 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     precise float u = cx * by - cy * bx;
     precise float v = ax * cy - ay * cx;
     precise float w = bx * ay - by * ax;
-    float det = u + v + w;
+    precise float det = u + v + w;
     // Of the corners. Products of lengths would leave the range of a float sooner than those of areas do.
-    vec3 weights = vec3(u, v, w) * (1.0 / det);
-    float t = weights.x * dot(a, direction) + weights.y * dot(b, direction) + weights.z * dot(c, direction);
+    precise vec3 weights = vec3(u, v, w) * (1.0 / det);
+    // A ray that goes on behind a surface knows it by its distance: wherever this is compiled it must be the same.
+    precise float t = weights.x * dot(a, direction) + weights.y * dot(b, direction) + weights.z * dot(c, direction);
     bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
     return TriangleHit(inside && det != 0.0, t, vec2(weights.y, weights.z));
 }

@@ -38,6 +38,12 @@ TEST(Statistics, ChiSquareMergesBinsOfLowExpectation) {
     EXPECT_NEAR(off.statistic, 8.0, 1e-12);
     EXPECT_NEAR(off.p, std::exp(-4.0), 1e-12);
     EXPECT_EQ(chiSquare(std::vector<double>{9.0, 1.0}, std::vector<double>{10.0, 0.0}).p, 0.0);
+    // Two bins of 8, and 4 that are left over: these go to the last.
+    const ChiSquare rest =
+        chiSquare(std::vector<double>{4.0, 4.0, 4.0, 0.0, 8.0}, std::vector<double>(5, 4.0));
+    EXPECT_EQ(rest.degrees, 1.0);
+    EXPECT_NEAR(rest.statistic, 0.0, 1e-12);
+    EXPECT_EQ(chiSquare(std::vector<double>{0.0, 0.0, 9.0}, std::vector<double>(3, 1.0)).p, 0.0);
 }
 
 TEST(Statistics, SidakKeepsTheFamilyLevel) {

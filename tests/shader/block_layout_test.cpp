@@ -158,43 +158,5 @@ TEST(BlockLayout, ResultsReturnFieldByField) {
     expectReturnsByStorage<shared::LaneResult>("LaneResult");
 }
 
-/// Numbers that both sides read from the shared headers.
-TEST(BlockLayout, ConstantsAreTheSame) {
-    const std::vector<std::uint32_t> expected{shared::kNodeTexels,
-                                              shared::kTriangleTexels,
-                                              shared::kNormalTexels,
-                                              shared::kMaterialTexels,
-                                              shared::kLightTexels,
-                                              shared::kMaxTreeDepth,
-                                              shared::kMaxLeafTriangles,
-                                              shared::kMetaInner,
-                                              shared::kMaterialMask,
-                                              shared::kTriangleSmooth,
-                                              shared::kMaterialTwoSided,
-                                              shared::kMaterialEmitsFront,
-                                              shared::kMaterialEmitsBack,
-                                              shared::kTransmittanceZero,
-                                              shared::kTransmittanceIdentity,
-                                              shared::kTransmittanceGeneral,
-                                              shared::kDirectLightNone,
-                                              shared::kDirectLightSampled,
-                                              shared::kDirectLightClosedForm,
-                                              shared::kSamplerSobol,
-                                              shared::kSamplerIndependent,
-                                              shared::kMaxFilmBands,
-                                              shared::kFilmSums,
-                                              static_cast<std::uint32_t>(shared::kStatisticsQuanta)};
-    std::string statements =
-        "uint[] values = uint[](kNodeTexels, kTriangleTexels, kNormalTexels, "
-        "kMaterialTexels, kLightTexels, kMaxTreeDepth, kMaxLeafTriangles, kMetaInner, "
-        "kMaterialMask, kTriangleSmooth, kMaterialTwoSided, kMaterialEmitsFront, "
-        "kMaterialEmitsBack, kTransmittanceZero, kTransmittanceIdentity, "
-        "kTransmittanceGeneral, kDirectLightNone, kDirectLightSampled, "
-        "kDirectLightClosedForm, kSamplerSobol, kSamplerIndependent, kMaxFilmBands, "
-        "kFilmSums, uint(kStatisticsQuanta));\n"
-        "for (int i = 0; i < values.length(); i++) words[i] = values[i];\n";
-    EXPECT_EQ(run("", statements, {}, 0u, expected.size()), expected);
-}
-
 }  // namespace
 }  // namespace duolux::test

@@ -211,9 +211,9 @@ TEST_F(Harness, AFileThatCannotBeUnderstoodIsAnError) {
     EXPECT_EQ(message("\nTEST(Open) {\n"), "x_test.glsl:2: the test's body has no end");
     for (const char* text :
          {"TEST(Count, 5) {}", "TEST_N(None) {}", "TEST_N(Shift, 1 << 4) {}", "TEST(Semicolon);"}) {
-        EXPECT_EQ(
-            message(text),
-            "x_test.glsl:1: expected TEST(name) { or TEST_N(name, invocations) {, invocations being digits");
+        EXPECT_EQ(message(text),
+                  "x_test.glsl:1: expected TEST(name) { or TEST_N(name, invocations) {, invocations being up "
+                  "to nine digits");
     }
     EXPECT_EQ(message("TEST_N(None, 0) {}"), "x_test.glsl:1: a test needs at least one invocation");
     EXPECT_EQ(message("TEST(Two) {\n EXPECT_TRUE(a); EXPECT_TRUE(b);\n}"),

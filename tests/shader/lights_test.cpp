@@ -230,8 +230,8 @@ TEST(SampleLight, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
 }
 
 // Every particle carries the power of the whole scene, in the colours of its emitter: because points are
-// picked by power, the sum of channels is the same for all, and the mean of each is that channel's power (z
-// test with the sample's variance, which its mean of a million normal-distributes; 3 tests, level 1e-4).
+// picked by power, the sum of channels is the same for all, and the mean of each is that channel's power
+// (Student's test with the sample's variance; 3 tests, level 1e-4).
 TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
     const Scene scene = randomEmitters(300, 20);
     glm::dvec3 power(0.0);

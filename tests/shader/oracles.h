@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <limits>
+#include <map>
 #include <source_location>
 #include <string>
 #include <string_view>
@@ -115,6 +116,7 @@ void expectWithinOracles(const std::source_location& place, std::string_view nam
     const auto compare = [&](std::string_view oracle, auto&& reference) {
         std::size_t beyond = 0, worstAt = 0, compared = 0;
         double worst = -1.0;
+        std::map<int, std::size_t> octaves;  // of how many times the budget those beyond it are off
         std::string where;
         for (std::size_t i = 0; i < device.size(); ++i) {
             const std::vector<double> actual = numbers(device[i]);
@@ -126,7 +128,7 @@ void expectWithinOracles(const std::source_location& place, std::string_view nam
                 const bool same =
                     actual[c] == expected[c] || (std::isnan(actual[c]) && std::isnan(expected[c]));
                 const double off = same ? 0.0 : std::abs(actual[c] - expected[c]) / allowed;
-                if (!(off <= 1.0)) ++beyond;
+                if (!(off <= 1.0)) ++beyond, ++octaves[std::isfinite(off) ? std::ilogb(off) : 2000];
                 if (!(off <= worst)) {
                     worst = off;
                     worstAt = i;
@@ -138,13 +140,19 @@ void expectWithinOracles(const std::source_location& place, std::string_view nam
         testing::Test::RecordProperty(fmt::format("{}_{}", name, oracle),
                                       fmt::format("{:.3g} of the budget", worst));
         if (beyond == 0 && compared > 0) return;
-        std::string inputs;
+        std::string inputs, census;
+        for (const auto& [octave, count] : octaves) {
+            const double lower = std::ldexp(1.0, std::min(octave, 1000));
+            census += octave == 2000 ? fmt::format("\n    not finite: {}", count)
+                                     : fmt::format("\n    {:.4g} to {:.4g} times the budget: {}", lower,
+                                                   2.0 * lower, count);
+        }
         if (compared > 0) ((inputs += describeArgument(arguments[worstAt])), ...);
         ADD_FAILURE_AT(place.file_name(), static_cast<int>(place.line())) << fmt::format(
             "{} against C++ in {}: {} of {} numbers are off by more than {:.3g} ulp or {:.3g}; the worst, "
-            "{:.3g} times as much: in invocation {}, for{}, {}{}",
+            "{:.3g} times as much: in invocation {}, for{}, {}{}{}",
             name, oracle, beyond, compared, budget.ulps, budget.floor, worst, worstAt, inputs, where,
-            describeStaleMirror());
+            describeStaleMirror(), census);
     };
     compare("float", [&](std::size_t i) { return single(arguments[i]...); });
     compare("double", [&](std::size_t i) { return twice(widen(arguments[i])...); });

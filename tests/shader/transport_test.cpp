@@ -59,6 +59,15 @@ Matrix matrixOf(const glm::vec4 (&entries)[4]) {
     return {entries[0], entries[1], entries[2], entries[3]};
 }
 
+TEST(Transport, ConstantsAreTheHosts) {
+    ShaderLibrary library = transport();
+    for (const std::uint32_t kind :
+         {shared::kTransmittanceZero, shared::kTransmittanceIdentity, shared::kTransmittanceGeneral}) {
+        library.constant(shared::kSpecTransmittance, kind);
+        EXPECT_EQ(library.evaluate<std::uint32_t>("result = kTransmittance;").at(0), kind);
+    }
+}
+
 TEST(Transport, EveryMaterialHasItsOwnMatrices) {
     const ShaderLibrary library = transport();
     const auto opaque = library.call<Matrix>("opaqueOf", materialIndices());

@@ -6,13 +6,14 @@
 #include "host/vk/buffer.h"
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
+#include "tests/support/device.h"
 
 namespace duolux::test {
 namespace {
 
 /// That other tests see no message means something only if a hazard gives one.
 TEST(Validation, ReportsASynchronizationHazard) {
-    Device device("cpu", Validation::kOn);
+    Device device(deviceSelector(), Validation::kOn);
     const std::vector<std::uint32_t> zeros(64);
     const Buffer buffer = Buffer::upload<std::uint32_t>(device, BufferUse::kStorage, zeros, "zeros");
     runOnce(device, "filling", [&](const vk::raii::CommandBuffer& commands) {

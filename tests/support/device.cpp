@@ -16,16 +16,24 @@ std::unique_ptr<Device>& opened() {
     return device;
 }
 
-/// Each test fails if the validation layer said anything while it ran.
+/// What the validation layer has said since it was last asked fails the test.
+void checkMessages(std::size_t& seen) {
+    const std::vector<std::string> messages = opened()->validationMessages();
+    for (std::size_t i = seen; i < messages.size(); ++i)
+        ADD_FAILURE() << "validation: " << messages[i];
+    seen = messages.size();
+}
+
+std::size_t seenMessages = 0;
+
 class ValidationListener : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
-        if (opened() == nullptr) return;
-        const std::vector<std::string> messages = opened()->validationMessages();
-        for (std::size_t i = seen_; i < messages.size(); ++i)
-            ADD_FAILURE() << "validation: " << messages[i];
-        seen_ = messages.size();
+        if (opened() != nullptr) checkMessages(seenMessages);
     }
-    std::size_t seen_ = 0;
+    /// Of what came after the last test.
+    void OnEnvironmentsTearDownEnd(const testing::UnitTest&) override {
+        if (opened() != nullptr) checkMessages(seenMessages);
+    }
 };
 
 const bool kRegistered = [] {

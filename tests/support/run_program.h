@@ -23,7 +23,8 @@ struct ProgramSignal {
 ProgramResult runProgram(const std::string& program, const std::filesystem::path& folder,
                          std::vector<std::string> arguments,
                          std::optional<ProgramSignal> signal = std::nullopt,
-                         std::chrono::seconds limit = std::chrono::seconds(120));
+                         std::chrono::seconds limit = std::chrono::seconds(120),
+                         const std::vector<std::string>& environment = {});
 
 /// The whole file; empty if it cannot be read.
 std::string contentsOf(const std::filesystem::path& file);

@@ -84,22 +84,31 @@ ChiSquare chiSquare(std::span<const double> observed, std::span<const double> ex
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
-    ChiSquare result;
-    double bins = 0.0;
-    double counts = 0.0;
-    double merged = 0.0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (!(expected[order[i]] > 0.0) && observed[order[i]] > 0.0) return {INFINITY, 1.0, 0.0};
-        counts += observed[order[i]];
-        merged += expected[order[i]];
-        // What is left at the end, too little for a bin of its own, cannot be: later bins expect more.
-        if (merged < minimum) continue;
-        result.statistic += (counts - merged) * (counts - merged) / merged;
-        bins += 1.0;
-        counts = merged = 0.0;
+    struct Bin {
+        double observed = 0.0, expected = 0.0;
+    };
+    std::vector<Bin> bins(1);
+    for (const std::size_t i : order) {
+        if (!(expected[i] > 0.0) && observed[i] > 0.0) return {INFINITY, 1.0, 0.0};
+        if (bins.back().expected >= minimum) bins.emplace_back();
+        bins.back().observed += observed[i];
+        bins.back().expected += expected[i];
     }
-    result.degrees = bins - 1.0;
-    if (result.degrees > 0.0) result.p = chiSquareTail(result.statistic, result.degrees);
+    // What is left at the end may be too little for a bin of its own.
+    if (bins.size() > 1 && bins.back().expected < minimum) {
+        const Bin rest = bins.back();
+        bins.pop_back();
+        bins.back().observed += rest.observed;
+        bins.back().expected += rest.expected;
+    }
+    ChiSquare result;
+    for (const Bin& bin : bins) {
+        const double off = bin.observed - bin.expected;
+        if (bin.expected > 0.0) result.statistic += off * off / bin.expected;
+    }
+    result.degrees = static_cast<double>(bins.size()) - 1.0;
+    // One bin has nothing to say: that is no test that was passed.
+    result.p = result.degrees > 0.0 ? chiSquareTail(result.statistic, result.degrees) : 0.0;
     return result;
 }
 

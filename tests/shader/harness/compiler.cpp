@@ -16,13 +16,14 @@ namespace duolux::test {
 namespace {
 
 /// The compiler's report without its empty lines and with names as they are included.
-std::string readable(std::string report, const std::filesystem::path& scratch) {
+std::string readable(std::string report, const std::filesystem::path& scratch,
+                     const std::vector<std::filesystem::path>& roots) {
     const auto replaceAll = [&](const std::string& from, const std::string& to) {
         for (std::size_t at = report.find(from); at != std::string::npos; at = report.find(from, at))
             report.replace(at, from.size(), to);
     };
     replaceAll(scratch.string() + "/", "");
-    for (const std::filesystem::path& root : sourceRoots())
+    for (const std::filesystem::path& root : roots)
         replaceAll(root.string() + "/", "");
     // What follows from the errors says nothing.
     std::istringstream lines(report);
@@ -62,17 +63,18 @@ CompileError::Place CompileError::place() const {
     return {m[1], static_cast<std::size_t>(std::stoul(m[2]))};
 }
 
-std::vector<std::uint32_t> compileKernel(std::string_view glsl) {
+std::vector<std::uint32_t> compileKernel(std::string_view glsl,
+                                         const std::vector<std::filesystem::path>& roots) {
     const TemporaryFolder scratch;
     const std::filesystem::path source = scratch / "kernel.comp";
     const std::filesystem::path output = scratch / "kernel.spv";
     writeFile(source, glsl);
     std::vector<std::string> arguments{"--quiet", "-V", "--target-env", "vulkan1.2"};
-    for (const std::filesystem::path& root : sourceRoots())
+    for (const std::filesystem::path& root : roots)
         arguments.push_back("-I" + root.string());
     arguments.insert(arguments.end(), {"-o", output, source});
     const ProgramResult result = runProgram(DUOLUX_GLSLANG, scratch.path(), arguments);
-    if (result.status != 0) throw CompileError(readable(result.out + result.err, scratch.path()));
+    if (result.status != 0) throw CompileError(readable(result.out + result.err, scratch.path(), roots));
     const std::string bytes = readFile(output);
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
     std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));

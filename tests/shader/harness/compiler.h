@@ -33,9 +33,10 @@ class CompileError : public std::runtime_error {
     Place place() const;
 };
 
-/// Compiles a compute kernel for Vulkan 1.2, with the compiler that builds the program. Throws CompileError.
-/// May be called from several threads.
-std::vector<std::uint32_t> compileKernel(std::string_view glsl);
+/// Compiles a compute kernel for Vulkan 1.2, with the compiler that builds the program; `roots`: as of
+/// sourceRoots(), which other threads must not read. Throws CompileError. May be called from several threads.
+std::vector<std::uint32_t> compileKernel(std::string_view glsl,
+                                         const std::vector<std::filesystem::path>& roots = sourceRoots());
 
 /// First lines of every kernel: the version, the extensions that the harness needs, and, where coverage is
 /// measured, what instrumented libraries call.

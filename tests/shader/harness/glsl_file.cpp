@@ -87,7 +87,7 @@ void refuseExpectationsInIncludes(const std::string& code, std::set<std::string>
 
 GlslFile parseGlslFile(std::string_view name, std::string_view text) {
     static const std::regex kAnyTest(R"(\bTEST(_N)?\s*\()");
-    static const std::regex kTest(R"(TEST(_N)?\s*\(\s*(\w+)\s*(?:,\s*(\d+)u?\s*)?\)\s*\{)");
+    static const std::regex kTest(R"(TEST(_N)?\s*\(\s*(\w+)\s*(?:,\s*(\d{1,9})u?\s*)?\)\s*\{)");
     static const std::regex kNote(R"(\bNOTE\s*\()");
     const std::string code = blankComments(text);
     GlslFile file;
@@ -104,7 +104,7 @@ GlslFile parseGlslFile(std::string_view name, std::string_view text) {
                                                   std::regex_constants::match_continuous);
         if (!understood || m[1].matched != m[3].matched) {
             fail(name, line,
-                 "expected TEST(name) { or TEST_N(name, invocations) {, invocations being digits");
+                 "expected TEST(name) { or TEST_N(name, invocations) {, invocations being up to nine digits");
         }
         const std::size_t end = closingBracket(code, begin + static_cast<std::size_t>(m.length()) - 1);
         if (end == std::string::npos) fail(name, line, "the test's body has no end");
@@ -116,6 +116,11 @@ GlslFile parseGlslFile(std::string_view name, std::string_view text) {
     if (file.tests.empty()) fail(name, 1, "there is no TEST(name) in this file");
     file.sites = findSites(name, code, expectationPattern());
     file.notes = findSites(name, code, kNote);
+    for (const GlslFile::Site& note : file.notes) {
+        if (file.siteAt(note.firstLine) != nullptr || file.siteAt(note.lastLine) != nullptr) {
+            fail(name, note.firstLine, "two expectations, or notes, on one line cannot be told apart");
+        }
+    }
     std::set<std::string> seen;
     refuseExpectationsInIncludes(code, seen);
     return file;

@@ -9,7 +9,9 @@
 #include <cstring>
 #include <future>
 #include <map>
+#include <semaphore>
 #include <set>
+#include <thread>
 
 #include "host/vk/commands.h"
 #include "tests/shader/harness/compiler.h"
@@ -36,7 +38,20 @@ class Kernels {
     std::shared_future<Spirv> entry(const GlslFile& file) {
         std::shared_future<Spirv>& future = futures_[file.name];
         if (!future.valid()) {
-            future = std::async(std::launch::async, [file] { return compileKernel(kernelOf(file)); }).share();
+            // What sourceRoots() is now, and no more compilers at once than there are cores.
+            future =
+                std::async(std::launch::async, [glsl = kernelOf(file), roots = sourceRoots()] {
+                    static std::counting_semaphore<> cores(std::max(1u, std::thread::hardware_concurrency()));
+                    cores.acquire();
+                    try {
+                        Spirv spirv = compileKernel(glsl, roots);
+                        cores.release();
+                        return spirv;
+                    } catch (...) {
+                        cores.release();
+                        throw;
+                    }
+                }).share();
         }
         return future;
     }

@@ -75,7 +75,7 @@ void note_(int line, FloatValue_ a) { note_(line, floatBitsToUint(a.v), kValueFl
 // On the bits: what a driver makes of NaN in comparisons is its own affair.
 bool isNotANumber_(float a) { return (floatBitsToUint(a) & 0x7fffffffu) > 0x7f800000u; }
 
-// The difference is not negative, or not a number. Line 0 stands for those of an included file that is longer.
+// The difference is not negative, or not a number.
 void expectation_(int line, bool ok, Evidence seen) {
     line = line < expectations.length() ? line : 0;
     ok = ok && seen.components == seen.expectedComponents;
@@ -95,7 +95,9 @@ void expectation_(int line, bool ok, Evidence seen) {
             atomicOr(failedInvocations[invocation >> 5u], 1u << (invocation & 31u));
         }
     } else if (!ok && testDispatch.pass == kPassFirst) {
-        if (~invocation == expectations[line].first) expectations[line].firstSeen = seen;
+        // In a loop, the first time.
+        bool first = ~invocation == expectations[line].first && expectations[line].firstSeen.components == 0u;
+        if (first) expectations[line].firstSeen = seen;
         if (bits == expectations[line].worst) atomicMax(expectations[line].worstAt, ~invocation);
     } else if (testDispatch.pass == kPassWorst && !ok && ~invocation == expectations[line].worstAt && bits == expectations[line].worst) {
         expectations[line].worstSeen = seen;
@@ -135,14 +137,16 @@ float wordDifference_(uvec4 a, uvec4 b) {
 }
 
 void expectEqual_(int line, BoolValue_ a, BoolValue_ b) {
-    expectation_(line, a.v == b.v, evidence_(a.v, b.v, kValueBool, uvec2(a.components, b.components), wordDifference_(a.v, b.v), 0.0));
+    uvec2 components = uvec2(a.components, b.components);
+    expectation_(line, a.v == b.v, evidence_(a.v, b.v, kValueBool, components, wordDifference_(a.v, b.v), 0.0));
 }
 void expectEqual_(int line, IntValue_ a, IntValue_ b) {
     float off = wordDifference_(uvec4(a.v) ^ 0x80000000u, uvec4(b.v) ^ 0x80000000u);
     expectation_(line, a.v == b.v, evidence_(uvec4(a.v), uvec4(b.v), kValueInt, uvec2(a.components, b.components), off, 0.0));
 }
 void expectEqual_(int line, UintValue_ a, UintValue_ b) {
-    expectation_(line, a.v == b.v, evidence_(a.v, b.v, kValueUint, uvec2(a.components, b.components), wordDifference_(a.v, b.v), 0.0));
+    uvec2 components = uvec2(a.components, b.components);
+    expectation_(line, a.v == b.v, evidence_(a.v, b.v, kValueUint, components, wordDifference_(a.v, b.v), 0.0));
 }
 
 Evidence floatEvidence_(FloatValue_ a, FloatValue_ b, float off, float allowed) {

@@ -16,7 +16,7 @@ namespace duolux::test {
 
 namespace {
 
-/// So that no dispatch runs for long, and no buffer is larger than devices bind.
+/// So that no dispatch runs for long.
 constexpr std::size_t kInvocationsPerDispatch = std::size_t{1} << 20;
 
 const std::vector<std::uint32_t>& compiled(const std::string& glsl) {
@@ -48,6 +48,7 @@ ShaderLibrary& ShaderLibrary::texels(std::string_view function, std::span<const 
 std::size_t ShaderLibrary::invocations(std::initializer_list<std::size_t> sizes) {
     std::size_t count = 1;
     for (const std::size_t size : sizes) {
+        if (size == 0) throw std::logic_error("an argument without elements");
         if (size != 1 && count != 1 && size != count) {
             throw std::logic_error(fmt::format("arguments of different sizes, {} and {}", count, size));
         }
@@ -113,8 +114,13 @@ void ShaderLibrary::run(std::string_view statements, const std::vector<Array>& a
     for (const auto& [function, bytes] : texels_)
         texels.push_back(Buffer::upload(device(), BufferUse::kTexels, bytes, function));
     const std::size_t total = results.size() / result.itemSize;
-    for (std::size_t first = 0; first < total; first += kInvocationsPerDispatch) {
-        const std::size_t count = std::min(kInvocationsPerDispatch, total - first);
+    std::size_t largest = result.itemSize;
+    for (const Array& a : arguments)
+        largest = std::max(largest, a.itemSize);
+    const std::size_t most = std::min<std::size_t>(
+        kInvocationsPerDispatch, std::max<std::size_t>(device().info().maxStorageBufferRange / largest, 1));
+    for (std::size_t first = 0; first < total; first += most) {
+        const std::size_t count = std::min(most, total - first);
         std::vector<Buffer> inputs;
         for (const Array& a : arguments) {
             const bool one = a.bytes.size() == a.itemSize;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <exception>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <regex>
@@ -29,6 +31,7 @@ struct Mutation {
     std::string file, before, after, why, equivalent;
     std::string caughtBy;  ///< the first test that failed; empty: it survived
     bool compiles = true;
+    std::string crash;  ///< how the tests ended instead of failing
 };
 
 std::string trimmed(std::string_view text) {
@@ -42,7 +45,7 @@ std::optional<Mutation> parse(const std::string& text) {
     static const std::regex kLine(R"((\S+) \| (.*?) => (.*?) \| ([^|]*?)( \| equivalent: ([^|]+))?)");
     std::smatch m;
     if (!std::regex_match(text, m, kLine)) return std::nullopt;
-    return Mutation{0, m[1], trimmed(m[2].str()), trimmed(m[3].str()), m[4], m[6], "", true};
+    return Mutation{0, m[1], trimmed(m[2].str()), trimmed(m[3].str()), m[4], m[6], "", true, ""};
 }
 
 /// The file with the mutation in it. Throws InputError unless what is to be replaced is there exactly once.
@@ -64,6 +67,7 @@ std::string mutate(const std::string& list, const Mutation& m, const std::filesy
 std::vector<Mutation> readList(const std::string& list, const std::filesystem::path& shaders) {
     std::istringstream lines(readFile(list));
     std::vector<Mutation> mutations;
+    std::map<std::string, std::size_t> seen;
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
@@ -79,7 +83,12 @@ std::vector<Mutation> readList(const std::string& list, const std::filesystem::p
         }
         mutation->line = number;
         mutations.push_back(std::move(*mutation));
-        mutate(list, mutations.back(), shaders);
+        const std::string text = mutate(list, mutations.back(), shaders);
+        if (const auto [same, isNew] = seen.emplace(mutations.back().file + "\n" + text, number); !isNew) {
+            throw InputError(list, fmt::format("line {}", number),
+                             fmt::format("makes the same as line {}", same->second),
+                             "expected each mutation once");
+        }
     }
     return mutations;
 }
@@ -92,13 +101,13 @@ void runTests(const std::string& tests, const std::filesystem::path& sources, co
         std::nullopt, std::chrono::seconds(300));
     if (result.status == 0) return;
     // A mutation that is no program is no test of the tests.
-    m.compiles = result.out.find("ERROR: shaders/" + m.file + ":") == std::string::npos;
+    m.compiles = result.out.find("ERROR: ") == std::string::npos;
     const std::string mark = "[  FAILED  ] ";
     const std::size_t at = result.out.find(mark);
     if (at == std::string::npos) {
         // Nothing has the name of this file: the whole suite will tell.
         if (result.err.find("no test's name matches") == std::string::npos) {
-            m.caughtBy = fmt::format("exit status {}", result.status);
+            m.crash = fmt::format("exit status {}", result.status);
         }
         return;
     }
@@ -108,6 +117,7 @@ void runTests(const std::string& tests, const std::filesystem::path& sources, co
 
 std::string verdict(const Mutation& m) {
     if (!m.compiles) return "DOES NOT COMPILE";
+    if (!m.crash.empty()) return "ENDED THE TESTS, " + m.crash;
     if (!m.caughtBy.empty()) return "caught by " + m.caughtBy;
     return m.equivalent.empty() ? "SURVIVED" : "equivalent: " + m.equivalent;
 }
@@ -144,22 +154,30 @@ int main(int argc, char** argv) {
             throw MachineError(fmt::format("without any mutation {} fails already", none.caughtBy));
         std::atomic<std::size_t> next{0};
         std::mutex printing;
+        std::exception_ptr failure;
         const auto work = [&] {
-            for (std::size_t i = next++; i < mutations.size(); i = next++) {
-                Mutation& m = mutations[i];
-                const test::TemporaryFolder folder;
-                const std::filesystem::path file = folder.path() / "shaders" / m.file;
-                std::filesystem::create_directories(file.parent_path());
-                writeFile(file, mutate(list, m, shaders));
-                // Most are caught by tests of the file's own name.
-                const std::string suites =
-                    test::pascalCase(std::filesystem::path(m.file).stem().string()) + "*";
-                runTests(tests, folder.path(), suites + oracles, m);
-                if (m.caughtBy.empty()) runTests(tests, folder.path(), "*" + oracles, m);
+            try {
+                for (std::size_t i = next++; i < mutations.size(); i = next++) {
+                    Mutation& m = mutations[i];
+                    const test::TemporaryFolder folder;
+                    const std::filesystem::path file = folder.path() / "shaders" / m.file;
+                    std::filesystem::create_directories(file.parent_path());
+                    writeFile(file, mutate(list, m, shaders));
+                    // Most are caught by tests of the file's own name.
+                    const std::string suites =
+                        test::pascalCase(std::filesystem::path(m.file).stem().string()) + "*";
+                    runTests(tests, folder.path(), suites + oracles, m);
+                    if (m.caughtBy.empty() && m.crash.empty())
+                        runTests(tests, folder.path(), "*" + oracles, m);
+                    const std::lock_guard lock(printing);
+                    fmt::print("{}:{}: {}: {} => {} ({}): {}\n", listName, m.line, m.file, m.before, m.after,
+                               m.why, verdict(m));
+                    std::fflush(stdout);
+                }
+            } catch (...) {
                 const std::lock_guard lock(printing);
-                fmt::print("{}:{}: {}: {} => {} ({}): {}\n", listName, m.line, m.file, m.before, m.after,
-                           m.why, verdict(m));
-                std::fflush(stdout);
+                failure = std::current_exception();
+                next = mutations.size();
             }
         };
         std::vector<std::thread> threads;
@@ -167,12 +185,13 @@ int main(int argc, char** argv) {
             threads.emplace_back(work);
         for (std::thread& thread : threads)
             thread.join();
+        if (failure) std::rethrow_exception(failure);
         std::size_t caught = 0, equivalent = 0, broken = 0;
         for (const Mutation& m : mutations) {
             broken += m.compiles ? 0 : 1;
             caught += m.compiles && !m.caughtBy.empty() ? 1 : 0;
-            equivalent += m.caughtBy.empty() && !m.equivalent.empty() ? 1 : 0;
-            if (!m.compiles || (m.caughtBy.empty() && m.equivalent.empty())) {
+            equivalent += m.caughtBy.empty() && m.crash.empty() && !m.equivalent.empty() ? 1 : 0;
+            if (!m.compiles || !m.crash.empty() || (m.caughtBy.empty() && m.equivalent.empty())) {
                 fmt::print("{}:{}: {} => {}: {}\n", listName, m.line, m.before, m.after, verdict(m));
             }
         }
