@@ -86,7 +86,7 @@ std::vector<glm::uvec2> randomWords(std::size_t count, std::uint32_t seed) {
 
 constexpr double kAlpha = 1e-4;  // of each family below
 
-// Chi-square over the emitters, of 52 points each or many more; 5 tests, level 1e-4 of all.
+// Chi-square over the emitters, of 52 points each or many more; 4 tests, level 1e-4 of all.
 TEST(SampleLight, PicksEmittersByPower) {
     for (const std::size_t count : {1u, 2u, 7u, 1000u, 20011u}) {
         const Scene scene = randomEmitters(count, 17);
@@ -107,8 +107,9 @@ TEST(SampleLight, PicksEmittersByPower) {
             EXPECT_NEAR(static_cast<double>(table.pdfArea[i + 1]) * emitters[i].area / emitters[i].chance,
                         1.0, 1e-6);
         }
+        if (count == 1) continue;  // has been picked each time
         const ChiSquare test = chiSquare(observed, expected);
-        EXPECT_GE(test.p, sidakLevel(kAlpha, 5))
+        EXPECT_GE(test.p, sidakLevel(kAlpha, 4))
             << count << " emitters: " << test.statistic << " of " << test.degrees << " degrees";
     }
 }
