@@ -52,7 +52,8 @@ void bench(const BenchOptions& options) {
     Baseline baseline;
     if (!options.baseline.empty()) baseline = readBaseline(options.baseline);
     Device device(options.device);
-    fmt::print("{}, {}\n", device.info().name, device.info().driver);
+    const bool table = options.json != "-";
+    if (table) fmt::print("{}, {}\n", device.info().name, device.info().driver);
     const ScratchFolder scratch;
     std::vector<BenchResult> results;
     for (const std::string& scene : options.scenes) {
@@ -74,7 +75,7 @@ void bench(const BenchOptions& options) {
         throw UsageError(
             fmt::format("bench: no benchmark's name contains {}", fmt::join(options.only, " or ")));
     }
-    fmt::print("{}", benchTable(results));
+    if (table) fmt::print("{}", benchTable(results));
     if (!options.json.empty()) {
         writeReport(options.json, benchJson(results, device.info(),
                                             {{"width", size.x},
@@ -85,7 +86,7 @@ void bench(const BenchOptions& options) {
     }
     if (options.baseline.empty()) return;
     const BaselineComparison comparison = compareWithBaseline(results, baseline, options.threshold);
-    fmt::print("\n{}", comparison.table);
+    fmt::print(table ? stdout : stderr, "\n{}", comparison.table);
     if (baseline.device != device.info().name || baseline.driver != device.info().driver) {
         warn(fmt::format("{} was measured on {}, {}", options.baseline, baseline.device, baseline.driver));
     }
@@ -109,7 +110,10 @@ void addBenchCommand(CLI::App& app) {
             "SCENE", options->scenes,
             fmt::format("Scene files (.json, .obj), or built-in: {}", fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
-    command->add_option("--only", options->only, "Only benchmarks whose names contain one of these texts");
+    command
+        ->add_option("--only", options->only,
+                     "Only benchmarks whose names contain this text; may be repeated")
+        ->allow_extra_args(false);
     command->add_option("--device", options->device,
                         "cpu, gpu, an index or a part of a name (see 'duolux devices')");
     command->add_option("--repeat", options->repeat, "Runs that count, in turns, after one that does not")
@@ -123,7 +127,9 @@ void addBenchCommand(CLI::App& app) {
     command->add_option("--bounces", options->bounces, "Bounces of pictures; shadowless: at most 4")
         ->capture_default_str()
         ->check(wholeNumber(0, 65535));
-    command->add_option("--json", options->json, "File for all results (-: standard output)")
+    command
+        ->add_option("--json", options->json,
+                     "File for all results (-: standard output, in place of the table)")
         ->check(notEmpty());
     command
         ->add_option("--baseline", options->baseline,

@@ -182,7 +182,8 @@ int main(int argc, char** argv) {
     app.add_option("SCENE", options.scenes,
                    fmt::format("Scene files, or {}", fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
-    app.add_option("--only", options.only, "Only benchmarks whose names contain one of these texts");
+    app.add_option("--only", options.only, "Only benchmarks whose names contain this text; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--device", options.device, "Duolux's device")->capture_default_str();
     app.add_option("--repeat", options.repeat, "Runs that count")
         ->capture_default_str()

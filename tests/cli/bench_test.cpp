@@ -72,6 +72,13 @@ TEST_F(BenchCommand, ComparesWithABaseline) {
         HasSubstr("1 of 1 benchmarks are more than 10 % slower than in b.json: cornell/rays/primary"));
 }
 
+TEST_F(BenchCommand, GivesJsonAloneOnStandardOutput) {
+    const ProgramResult result = bench({"--only", "rays/primary", "--only", "build", "cornell", "--size",
+                                        "16x16", "--repeat", "1", "--json", "-", "--quiet"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out)["results"].size(), 2u);
+}
+
 TEST_F(BenchCommand, RefusesWhatItCannotMeasure) {
     ProgramResult result = bench({"nowhere.json"});
     EXPECT_EQ(result.status, 2);
