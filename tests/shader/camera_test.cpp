@@ -7,6 +7,7 @@
 
 #include "shaders/shared/path_layout.h"
 #include "tests/reference/pinhole.h"
+#include "tests/shader/harness/census.h"
 #include "tests/shader/oracles.h"
 
 // Camera rays, and how light paths see the camera, against the reference's rays in double precision.
@@ -112,16 +113,20 @@ TEST(CameraConnection, SeesAPointWhereTheCamerasRayGoes) {
     };
     const double area =
         glm::length(onPlane(kWidth, 0) - onPlane(0, 0)) * glm::length(onPlane(0, kHeight) - onPlane(0, 0));
+    Census pixels("visible and pixel"), distances("distance"), directions("direction"),
+        importances("importance");
     for (std::size_t i = 0; i < points.size(); ++i) {
-        ASSERT_EQ(seen[i].visible, 1u) << i;
-        EXPECT_EQ(seen[i].pixel,
-                  static_cast<std::uint32_t>(film[i].y) * kWidth + static_cast<std::uint32_t>(film[i].x));
+        pixels.compare(i, seen[i].visible, 1u);
+        pixels.compare(
+            i, seen[i].pixel,
+            static_cast<std::uint32_t>(film[i].y) * kWidth + static_cast<std::uint32_t>(film[i].x));
         const Vec3 offset = Vec3(kCamera.position) - Vec3(points[i]);
         const double distance = glm::length(offset);
-        EXPECT_NEAR(seen[i].distance, distance, 1e-5 * distance);
-        EXPECT_LT(glm::length(Vec3(seen[i].direction) - offset / distance), 2e-5);
+        distances.compare(i, seen[i].distance, distance, 1e-5 * distance);
+        directions.compare(i, glm::length(Vec3(seen[i].direction) - offset / distance), 0.0, 2e-5);
         const double cosine = -glm::dot(offset, forward) / distance;
-        EXPECT_NEAR(static_cast<double>(seen[i].importance) * area * std::pow(cosine, 3), 1.0, 1e-4);
+        importances.compare(i, static_cast<double>(seen[i].importance) * area * std::pow(cosine, 3), 1.0,
+                            1e-4);
     }
 }
 

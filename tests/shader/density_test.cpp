@@ -54,6 +54,26 @@ TEST(ExpectDensity, RefusesSamplesOfAnotherAndLeavesPictures) {
         "integral");
 }
 
+TEST(Census, SaysOnceHowManyAreOffAndHowFar) {
+    testing::TestPartResultArray failures;
+    {
+        const testing::ScopedFakeTestPartResultReporter reporter(&failures);
+        Census census("a thing");
+        for (std::size_t i = 0; i < 100; ++i)
+            census.compare(i, glm::vec2(0.0f, i < 90 ? 0.5f : static_cast<float>(i)), glm::vec2(0.0f), 1.0);
+    }
+    ASSERT_EQ(failures.size(), 1);
+    EXPECT_STREQ(failures.GetTestPartResult(0).message(),
+                 "Failed\na thing: 10 of 200 numbers are off, in 10 invocations\n"
+                 "  first: invocation 90, number 1: 90, expected 0, allowed 1\n"
+                 "  worst: invocation 99, number 1: 99, expected 0, allowed 1\n"
+                 "  off by\n    64 to 128 times what is allowed: 10");
+}
+
+TEST(Census, OfNothingFails) {
+    EXPECT_NONFATAL_FAILURE({ const Census census("a thing"); }, "nothing was compared");
+}
+
 TEST(ExpectOracles, FindsWhatIsBeyondTheBudget) {
     static const std::vector<float> inputs{1.0f, 2.0f, 3.0f};
     const auto half = [](auto x) { return x / 2; };
@@ -70,8 +90,9 @@ TEST(ExpectOracles, FindsWhatIsBeyondTheBudget) {
         EXPECT_WITHIN_ORACLES("half", device, Budget{1e6, 1e6}, half, half, inputs);
     }
     EXPECT_EQ(failures.size(), 4);
-    EXPECT_NE(std::string(failures.GetTestPartResult(0).message()).find("1 of 3 numbers are off"),
-              std::string::npos);
+    EXPECT_NE(
+        std::string(failures.GetTestPartResult(0).message()).find("1 of 3 numbers are off, in 1 invocations"),
+        std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/shader/harness/census.h"
 #include "tests/shader/light_types.h"
 
 // The film's integers against 64-bit integers of the host.
@@ -64,8 +65,9 @@ TEST(FilmQuantise, IsTheNearestInteger) {
         for (float& x : scaled)
             x /= inverse;
         const auto out = film().call<glm::uvec2>("filmQuantise", scaled, inverse);
+        Census census("filmQuantise by " + std::to_string(inverse));
         for (std::size_t i = 0; i < in.size(); ++i)
-            ASSERT_EQ(wide(out[i]), quanta(scaled[i], inverse)) << scaled[i] << " times " << inverse;
+            census.compare(i, out[i], words(quanta(scaled[i], inverse)));
     }
 }
 
@@ -103,15 +105,17 @@ std::pair<std::vector<glm::uvec2>, std::vector<glm::uvec2>> operands() {
 TEST(FilmAdd, IsThatOf64BitIntegers) {
     const auto [a, b] = operands();
     const auto sum = film().call<glm::uvec2>("filmAdd", a, b);
+    Census census("filmAdd");
     for (std::size_t i = 0; i < a.size(); ++i)
-        EXPECT_EQ(wide(sum[i]), wide(a[i]) + wide(b[i])) << i;
+        census.compare(i, sum[i], words(wide(a[i]) + wide(b[i])));
 }
 
 TEST(FilmNegate, IsTheTwosComplement) {
     const auto [a, b] = operands();
     const auto negative = film().call<glm::uvec2>("filmNegate", a);
+    Census census("filmNegate");
     for (std::size_t i = 0; i < a.size(); ++i)
-        EXPECT_EQ(wide(negative[i]), 0 - wide(a[i])) << i;
+        census.compare(i, negative[i], words(0 - wide(a[i])));
 }
 
 TEST(FilmAddSigned, IsThatOf64BitIntegers) {
@@ -130,10 +134,10 @@ TEST(FilmAddSigned, IsThatOf64BitIntegers) {
         }
     }
     const auto out = film().call<glm::uvec2>("filmAddSigned", sums, terms, 4.0f);
+    Census census("filmAddSigned");
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const std::uint64_t term = quanta(std::abs(terms[i]), 4.0f);
-        ASSERT_EQ(wide(out[i]), terms[i] < 0.0f ? wide(sums[i]) - term : wide(sums[i]) + term)
-            << wide(sums[i]) << " and " << terms[i];
+        census.compare(i, out[i], words(terms[i] < 0.0f ? wide(sums[i]) - term : wide(sums[i]) + term));
     }
 }
 
@@ -147,10 +151,11 @@ TEST(FilmAccumulate, AddsEveryChannel) {
         radiances.emplace_back(in[i], in[(i + 1) % in.size()], in[(i + 2) % in.size()]);
     }
     const auto out = film().call<FilmSum>("filmAccumulate", sums, radiances, 0.25f);
+    Census census("filmAccumulate");
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        ASSERT_EQ(wide(out[i].r), wide(sums[i].r) + quanta(radiances[i].r, 0.25f)) << i;
-        ASSERT_EQ(wide(out[i].g), wide(sums[i].g) + quanta(radiances[i].g, 0.25f)) << i;
-        ASSERT_EQ(wide(out[i].b), wide(sums[i].b) + quanta(radiances[i].b, 0.25f)) << i;
+        census.compare(i, out[i].r, words(wide(sums[i].r) + quanta(radiances[i].r, 0.25f)));
+        census.compare(i, out[i].g, words(wide(sums[i].g) + quanta(radiances[i].g, 0.25f)));
+        census.compare(i, out[i].b, words(wide(sums[i].b) + quanta(radiances[i].b, 0.25f)));
     }
 }
 

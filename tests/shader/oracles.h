@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <limits>
-#include <map>
 #include <source_location>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
+#include "tests/shader/harness/census.h"
 #include "tests/shader/harness/compiler.h"
 #include "tests/shader/harness/shader_function.h"
 #include "tests/shader/mirror/mirror.h"
@@ -49,28 +49,6 @@ glm::vec<N, double> widen(const glm::vec<N, float>& v) {
 template <glm::length_t N>
 glm::vec<N, std::uint32_t> widen(const glm::vec<N, std::uint32_t>& v) {
     return v;
-}
-
-/// Numbers that a result consists of. Overload it for structures, in their namespace, in terms of these.
-template <typename T>
-requires std::is_arithmetic_v<T> std::vector<double> numbers(T x) {
-    return {static_cast<double>(x)};
-}
-template <glm::length_t N, typename T>
-std::vector<double> numbers(const glm::vec<N, T>& v) {
-    std::vector<double> out;
-    for (glm::length_t i = 0; i < N; ++i)
-        out.push_back(static_cast<double>(v[i]));
-    return out;
-}
-template <typename... Parts>
-requires(sizeof...(Parts) > 1) std::vector<double> numbers(const Parts&... parts) {
-    std::vector<double> out;
-    const auto append = [&](const std::vector<double>& some) {
-        out.insert(out.end(), some.begin(), some.end());
-    };
-    (append(numbers(parts)), ...);
-    return out;
 }
 
 /// Size of a unit in the last place of a float of this magnitude.
@@ -114,45 +92,24 @@ void expectWithinOracles(const std::source_location& place, std::string_view nam
                          const std::vector<Result>& device, const Budget& budget, Single single, Twice twice,
                          const std::vector<Arguments>&... arguments) {
     const auto compare = [&](std::string_view oracle, auto&& reference) {
-        std::size_t beyond = 0, worstAt = 0, compared = 0;
-        double worst = -1.0;
-        std::map<int, std::size_t> octaves;  // of how many times the budget those beyond it are off
-        std::string where;
+        Census census(fmt::format("{} against C++ in {}, {:.3g} ulp or {:.3g}", name, oracle, budget.ulps,
+                                  budget.floor),
+                      place);
         for (std::size_t i = 0; i < device.size(); ++i) {
             const std::vector<double> actual = numbers(device[i]);
             const std::vector<double> expected = numbers(reference(i));
             ASSERT_EQ(actual.size(), expected.size());
             for (std::size_t c = 0; c < actual.size(); ++c) {
-                ++compared;
-                const double allowed = std::max(budget.ulps * ulpOf(expected[c]), budget.floor);
-                const bool same =
-                    actual[c] == expected[c] || (std::isnan(actual[c]) && std::isnan(expected[c]));
-                const double off = same ? 0.0 : std::abs(actual[c] - expected[c]) / allowed;
-                if (!(off <= 1.0)) ++beyond, ++octaves[std::isfinite(off) ? std::ilogb(off) : 2000];
-                if (!(off <= worst)) {
-                    worst = off;
-                    worstAt = i;
-                    where = fmt::format("number {} is {:.9g} for {:.9g}", c, actual[c], expected[c]);
-                }
-                if (std::isnan(worst)) worst = std::numeric_limits<double>::infinity();
+                census.add(i, c, actual[c], expected[c],
+                           std::max(budget.ulps * ulpOf(expected[c]), budget.floor));
             }
         }
         testing::Test::RecordProperty(fmt::format("{}_{}", name, oracle),
-                                      fmt::format("{:.3g} of the budget", worst));
-        if (beyond == 0 && compared > 0) return;
-        std::string inputs, census;
-        for (const auto& [octave, count] : octaves) {
-            const double lower = std::ldexp(1.0, std::min(octave, 1000));
-            census += octave == 2000 ? fmt::format("\n    not finite: {}", count)
-                                     : fmt::format("\n    {:.4g} to {:.4g} times the budget: {}", lower,
-                                                   2.0 * lower, count);
-        }
-        if (compared > 0) ((inputs += describeArgument(arguments[worstAt])), ...);
-        ADD_FAILURE_AT(place.file_name(), static_cast<int>(place.line())) << fmt::format(
-            "{} against C++ in {}: {} of {} numbers are off by more than {:.3g} ulp or {:.3g}; the worst, "
-            "{:.3g} times as much: in invocation {}, for{}, {}{}{}",
-            name, oracle, beyond, compared, budget.ulps, budget.floor, worst, worstAt, inputs, where,
-            describeStaleMirror(), census);
+                                      fmt::format("{:.3g} of the budget", census.worstRatio()));
+        if (census.off() == 0) return;
+        std::string inputs;
+        ((inputs += describeArgument(arguments[census.worstInvocation()])), ...);
+        census.note(fmt::format(", for{}{}", inputs, describeStaleMirror()));
     };
     compare("float", [&](std::size_t i) { return single(arguments[i]...); });
     compare("double", [&](std::size_t i) { return twice(widen(arguments[i])...); });

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/shader/harness/census.h"
 #include "tests/shader/oracles.h"
 #include "tests/support/closed_form.h"
 
@@ -82,6 +83,7 @@ TEST_F(PolygonLight, TrianglesOfAllSizesAndHeightsMatchDoublePrecision) {
     const std::vector<float> results = evaluate(inputs);
     int above = 0;
     int cut = 0;
+    Census census("projectedSolidAngle");
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const Triangle& t = inputs[i];
         int corners = 0;
@@ -89,7 +91,7 @@ TEST_F(PolygonLight, TrianglesOfAllSizesAndHeightsMatchDoublePrecision) {
             corners += glm::dot(corner, t.normal) > 0.0f ? 1 : 0;
         above += corners == 3 ? 1 : 0;
         cut += corners == 1 || corners == 2 ? 1 : 0;
-        ASSERT_NEAR(results[i], exact(t), kTolerance) << i;
+        census.compare(i, results[i], exact(t), kTolerance);
     }
     EXPECT_GT(above, 1000);
     EXPECT_GT(cut, 5000);
@@ -108,8 +110,9 @@ TEST_F(PolygonLight, ScaleDoesNotMatter) {
                           {0, 1, 0}});
     }
     const std::vector<float> results = evaluate(inputs);
+    Census census("projectedSolidAngle");
     for (std::size_t i = 0; i < inputs.size(); ++i)
-        EXPECT_NEAR(results[i], exact(inputs[i % 2]), kTolerance) << i;
+        census.compare(i, results[i], exact(inputs[i % 2]), kTolerance);
 }
 
 TEST_F(PolygonLight, LimitsByHand) {
@@ -182,8 +185,9 @@ TEST_F(PolygonLight, SumsOverTheAreaAgree) {
         expected.push_back(sum / (kCells * kCells));
     }
     const std::vector<float> results = evaluate(inputs);
+    Census census("projectedSolidAngle");
     for (std::size_t i = 0; i < inputs.size(); ++i)
-        EXPECT_NEAR(results[i], expected[i], 2e-4) << i;
+        census.compare(i, results[i], expected[i], 2e-4);
 }
 
 // The comment at angleOf: 3e-7. All ratios, and all sizes of sine and cosine.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shaders/shared/path_layout.h"
+#include "tests/shader/harness/census.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/oracles.h"
 #include "tests/shader/published_sequences.h"
@@ -70,15 +71,16 @@ TEST(Sampler, WordsAreThoseOfThePublishedGenerators) {
         names.push_back({v.x, v.y, v.z, v.w});
     const Words sobol = draw(kSamplerSobol, names);
     const Words independent = draw(kSamplerIndependent, names);
+    Census pairs("samplePair"), choices("sampleChoice");
     for (std::size_t i = 0; i < names.size(); ++i) {
         const auto& [pixel, sample, dimension, seed] = names[i];
         const glm::uvec2 pair = publishedPair(sample, publishedPcg4d({pixel, ~0u, dimension, seed}));
         const glm::uvec4 random = publishedPcg4d({pixel, sample, dimension, seed});
-        ASSERT_EQ(glm::uvec2(sobol[0][i], sobol[1][i]), pair) << i;
-        ASSERT_EQ(glm::uvec2(independent[0][i], independent[1][i]), glm::uvec2(random.x, random.y)) << i;
+        pairs.compare(i, glm::uvec2(sobol[0][i], sobol[1][i]), pair);
+        pairs.compare(i, glm::uvec2(independent[0][i], independent[1][i]), glm::uvec2(random.x, random.y));
         for (const Words* w : {&sobol, &independent}) {
-            ASSERT_EQ((*w)[2][i], random.z >> 8 << 8) << i;
-            ASSERT_EQ((*w)[3][i], random.w >> 8 << 8) << i;
+            choices.compare(i, (*w)[2][i], random.z >> 8 << 8);
+            choices.compare(i, (*w)[3][i], random.w >> 8 << 8);
         }
     }
 }

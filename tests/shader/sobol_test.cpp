@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "tests/shader/harness/census.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/oracles.h"
 #include "tests/shader/published_sequences.h"
@@ -105,8 +106,9 @@ TEST(Sobol, PairsMatchThePublishedConstruction) {
     for (std::size_t i = 0; i < 2048; ++i)
         indices[i] >>= 16;
     const std::vector<glm::uvec2> points = sobol().call<glm::uvec2>("sobolPair", indices, keys);
+    Census census("sobolPair");
     for (std::size_t i = 0; i < points.size(); ++i)
-        ASSERT_EQ(points[i], publishedPair(indices[i], keys[i])) << indices[i];
+        census.compare(i, points[i], publishedPair(indices[i], keys[i]));
 }
 
 /// Whether every elementary interval of 2^m points, 2^-a by 2^-(m - a) for each a, holds exactly one of them:
