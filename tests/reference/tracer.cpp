@@ -1,6 +1,8 @@
 #include "tests/reference/tracer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 

@@ -1,6 +1,7 @@
 #include "tests/reference/triangles.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace duolux::reference {
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
+#include <cmath>
 
 #include "tests/shader/layout_words.h"
 #include "tests/shader/light_types.h"
