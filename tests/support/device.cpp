@@ -58,4 +58,8 @@ Device& device() {
     return *opened();
 }
 
+void closeDevice() {
+    opened().reset();
+}
+
 }  // namespace duolux::test

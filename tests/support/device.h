@@ -12,6 +12,9 @@ namespace duolux::test {
 /// message.
 Device& device();
 
+/// Closes it, if it is open: drivers may not outlive main().
+void closeDevice();
+
 /// What DUOLUX_DEVICE says.
 std::string deviceSelector();
 

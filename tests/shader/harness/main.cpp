@@ -59,10 +59,12 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    int status = 1;
     try {
-        return run(argc, argv);
+        status = run(argc, argv);
     } catch (const std::exception& e) {
         fmt::print(stderr, "shader_test: {}\n", e.what());
-        return 1;
     }
+    closeDevice();
+    return status;
 }
