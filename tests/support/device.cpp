@@ -34,6 +34,7 @@ class ValidationListener : public testing::EmptyTestEventListener {
     void OnEnvironmentsTearDownEnd(const testing::UnitTest&) override {
         if (opened() != nullptr) checkMessages(seenMessages);
     }
+    void OnTestProgramEnd(const testing::UnitTest&) override { closeDevice(); }
 };
 
 const bool kRegistered = [] {

@@ -12,7 +12,7 @@ namespace duolux::test {
 /// message.
 Device& device();
 
-/// Closes it, if it is open: drivers may not outlive main().
+/// Closes it, if it is open: drivers may be gone when main() has ended. Done when GoogleTest's tests are.
 void closeDevice();
 
 /// What DUOLUX_DEVICE says.
