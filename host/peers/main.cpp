@@ -31,7 +31,7 @@ using namespace duolux;
 struct PeerOptions {
     std::vector<std::string> scenes{"cornell", "two-spheres-500000"};
     std::vector<std::string> only;
-    std::string device = "cpu", json, image;
+    std::string device = "cpu", json;
     std::uint32_t repeat = 5, spp = 16, size = 512, bounces = 16;
 };
 

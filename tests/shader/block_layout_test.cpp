@@ -20,11 +20,12 @@ constexpr std::size_t kStructures = 3;  // in storage, so that their stride coun
 template <typename Push>
 std::vector<std::uint32_t> run(const std::string& declarations, const std::string& statements,
                                const std::vector<Binding>& inputs, const Push& push, std::size_t words) {
-    const std::string glsl = std::string(kernelHeader()) +
-                             "layout(local_size_x = 1) in;\n#include \"shaders/shared/bvh_layout.h\"\n"
-                             "#include \"shaders/shared/light_layout.h\"\n" +
-                             "layout(binding = 1, scalar) buffer Words { uint words[]; };\n" + declarations +
-                             "\nvoid main() {\n" + statements + "}\n";
+    const std::string glsl =
+        std::string(kernelHeader()) +
+        "layout(local_size_x = 1) in;\n#include \"shaders/shared/bvh_layout.h\"\n"
+        "#include \"shaders/shared/light_layout.h\"\n#include \"shaders/shared/trace_layout.h\"\n" +
+        "layout(binding = 1, scalar) buffer Words { uint words[]; };\n" + declarations + "\nvoid main() {\n" +
+        statements + "}\n";
     const Buffer output = Buffer::readback(device(), words * sizeof(std::uint32_t), "words");
     std::vector<Binding> bindings = inputs;
     bindings.push_back({1, &output});
@@ -144,6 +145,7 @@ TEST(BlockLayout, UniformParametersArriveFieldByField) {
 TEST(BlockLayout, PushedParametersArriveFieldByField) {
     expectArrivesByPush<shared::DispatchParams>("DispatchParams");
     expectArrivesByPush<shared::LightDispatch>("LightDispatch");
+    expectArrivesByPush<shared::TraceDispatch>("TraceDispatch");
 }
 
 TEST(BlockLayout, ProgressGoesBothWaysFieldByField) {
@@ -151,7 +153,16 @@ TEST(BlockLayout, ProgressGoesBothWaysFieldByField) {
     expectReturnsByStorage<shared::TeamProgress>("TeamProgress");
 }
 
+TEST(BlockLayout, RaysArriveFieldByField) {
+    expectComplete<shared::TraceRay>();
+    expectArrivesByStorage<shared::TraceRay>("TraceRay");
+}
+
 TEST(BlockLayout, ResultsReturnFieldByField) {
+    expectComplete<shared::TraceHit>();
+    expectReturnsByStorage<shared::TraceHit>("TraceHit");
+    expectComplete<shared::TraceCounts>();
+    expectReturnsByStorage<shared::TraceCounts>("TraceCounts");
     expectComplete<shared::SlotResult>();
     expectReturnsByStorage<shared::SlotResult>("SlotResult");
     expectComplete<shared::LaneResult>();

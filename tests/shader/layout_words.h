@@ -10,6 +10,7 @@
 #include "shaders/shared/bvh_layout.h"
 #include "shaders/shared/light_layout.h"
 #include "shaders/shared/path_layout.h"
+#include "shaders/shared/trace_layout.h"
 
 // The structures of shaders/shared as lists of their 4-byte words, for sentinels that tell whether host and
 // device mean the same place by a name.
@@ -126,6 +127,26 @@ inline void listFields(const shared::LaneResult& s, WordList& list) {
     DUOLUX_FIELD(shadowRays);
     DUOLUX_FIELD(lastBounce);
     DUOLUX_FIELD(previousBounce);
+}
+inline void listFields(const shared::TraceRay& s, WordList& list) {
+    DUOLUX_FIELD(origin);
+    DUOLUX_FIELD(tMin);
+    DUOLUX_FIELD(direction);
+    DUOLUX_FIELD(tMax);
+}
+inline void listFields(const shared::TraceHit& s, WordList& list) {
+    DUOLUX_FIELD(t);
+    DUOLUX_FIELD(normal);
+}
+inline void listFields(const shared::TraceCounts& s, WordList& list) {
+    DUOLUX_FIELD(nodes);
+    DUOLUX_FIELD(triangles);
+    DUOLUX_FIELD(nodeSteps);
+    DUOLUX_FIELD(triangleSteps);
+}
+inline void listFields(const shared::TraceDispatch& s, WordList& list) {
+    DUOLUX_FIELD(rays);
+    DUOLUX_FIELD(blockRays);
 }
 inline void listFields(const shared::DeviceMaterial& s, WordList& list) {
     DUOLUX_FIELD(diffuse);
