@@ -6,27 +6,10 @@
 
 #include "tests/shader/density.h"
 #include "tests/shader/inputs.h"
+#include "tests/shader/mirror_types.h"
 #include "tests/shader/oracles.h"
 
 // BSDFs: integrals of the device's own functions over directions, the density of samples, and both oracles.
-
-namespace duolux::mirror::single {
-static twice::Bsdf widen(const Bsdf& bsdf) {
-    return {glm::dvec3(bsdf.diffuse)};
-}
-static std::vector<double> numbers(const BsdfSample& s) {
-    return test::numbers(s.wi, s.pdf, s.weight);
-}
-}  // namespace duolux::mirror::single
-
-namespace duolux::mirror::twice {
-static std::vector<double> numbers(const BsdfSample& s) {
-    return test::numbers(s.wi, s.pdf, s.weight);
-}
-}  // namespace duolux::mirror::twice
-
-DUOLUX_GLSL_TYPE(duolux::mirror::single::Bsdf, "Bsdf", "");
-DUOLUX_GLSL_TYPE(duolux::mirror::single::BsdfSample, "BsdfSample", "");
 
 namespace duolux::test {
 namespace {

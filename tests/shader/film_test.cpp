@@ -5,7 +5,7 @@
 #include <random>
 
 #include "tests/shader/harness/census.h"
-#include "tests/shader/light_types.h"
+#include "tests/shader/mirror_types.h"
 
 // The film's integers against 64-bit integers of the host.
 

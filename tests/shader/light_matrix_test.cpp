@@ -7,7 +7,7 @@
 
 #include "host/scene/reflectance.h"
 #include "tests/reference/matrix2.h"
-#include "tests/shader/light_types.h"
+#include "tests/shader/mirror_types.h"
 #include "tests/support/closed_form.h"
 
 // What the presets' matrices do to light (eqs. 12-23), closed forms of a uniform enclosure, and both oracles.

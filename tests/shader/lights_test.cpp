@@ -9,7 +9,7 @@
 #include <random>
 
 #include "tests/shader/density.h"
-#include "tests/shader/light_types.h"
+#include "tests/shader/mirror_types.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 

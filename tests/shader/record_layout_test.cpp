@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "tests/shader/layout_words.h"
-#include "tests/shader/light_types.h"
-
-DUOLUX_MIRROR_TYPE(Triangle, s.v0, s.v1, s.v2, s.primitive, s.materialFlags);
+#include "tests/shader/mirror_types.h"
 
 // Records in texels: sentinels that the host writes into every field come out of the library's fetch
 // functions in the field of the same meaning. Several records, so that their stride counts.

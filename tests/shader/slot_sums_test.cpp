@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/shader/light_types.h"
+#include "tests/shader/mirror_types.h"
 
 // What lanes add up, compared with both oracles. What it has to be: slot_sums_test.glsl,
 // light_path_test.glsl.

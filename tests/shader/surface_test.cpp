@@ -6,30 +6,10 @@
 #include "shaders/shared/bvh_layout.h"
 #include "shaders/shared/path_layout.h"
 #include "tests/shader/inputs.h"
+#include "tests/shader/mirror_types.h"
 #include "tests/shader/oracles.h"
 
 // Points on surfaces: the bound on their rounding errors at every scale, frames in double, and both oracles.
-
-namespace duolux::mirror::single {
-static twice::Triangle widen(const Triangle& t) {
-    return {glm::dvec3(t.v0), glm::dvec3(t.v1), glm::dvec3(t.v2), t.primitive, t.materialFlags};
-}
-static twice::SurfacePoint widen(const SurfacePoint& p) {
-    return {glm::dvec3(p.position), glm::dvec3(p.geometricNormal), glm::dvec3(p.shadingNormal)};
-}
-static std::vector<double> numbers(const SurfacePoint& p) {
-    return test::numbers(p.position, p.geometricNormal, p.shadingNormal);
-}
-}  // namespace duolux::mirror::single
-
-namespace duolux::mirror::twice {
-static std::vector<double> numbers(const SurfacePoint& p) {
-    return test::numbers(p.position, p.geometricNormal, p.shadingNormal);
-}
-}  // namespace duolux::mirror::twice
-
-DUOLUX_GLSL_TYPE(duolux::mirror::single::Triangle, "Triangle", "");
-DUOLUX_GLSL_TYPE(duolux::mirror::single::SurfacePoint, "SurfacePoint", "");
 
 namespace duolux::test {
 namespace {

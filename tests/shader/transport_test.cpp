@@ -7,7 +7,7 @@
 
 #include "shaders/shared/path_layout.h"
 #include "tests/reference/matrix2.h"
-#include "tests/shader/light_types.h"
+#include "tests/shader/mirror_types.h"
 #include "tests/support/scene_builder.h"
 
 // What the constants leave out: only what no surface of the scene does. And the materials' records, because

@@ -41,6 +41,10 @@ std::vector<double> numbers(const Array<N>& a) {
 
 }  // namespace duolux::mirror
 
+DUOLUX_MIRROR_TYPE(Bsdf, s.diffuse);
+DUOLUX_MIRROR_TYPE(BsdfSample, s.wi, s.pdf, s.weight);
+DUOLUX_MIRROR_TYPE(Triangle, s.v0, s.v1, s.v2, s.primitive, s.materialFlags);
+DUOLUX_MIRROR_TYPE(SurfacePoint, s.position, s.geometricNormal, s.shadingNormal);
 DUOLUX_MIRROR_TYPE(LightMatrix, s.m00, s.m01, s.m10, s.m11);
 DUOLUX_MIRROR_TYPE(Light, s.invisible, s.visible);
 DUOLUX_MIRROR_TYPE(Material, s.bsdf.diffuse, s.flags, s.emission, s.lightPdfArea);
@@ -57,6 +61,15 @@ DUOLUX_MIRROR_TYPE(LaneResult, s.nonFinite, s.clamped, s.lightRays, s.bounceRays
 
 namespace duolux::mirror::single {
 
+inline twice::Bsdf widen(const Bsdf& bsdf) {
+    return {test::widen(bsdf.diffuse)};
+}
+inline twice::Triangle widen(const Triangle& t) {
+    return {test::widen(t.v0), test::widen(t.v1), test::widen(t.v2), t.primitive, t.materialFlags};
+}
+inline twice::SurfacePoint widen(const SurfacePoint& p) {
+    return {test::widen(p.position), test::widen(p.geometricNormal), test::widen(p.shadingNormal)};
+}
 inline twice::LightMatrix widen(const LightMatrix& m) {
     return {test::widen(m.m00), test::widen(m.m01), test::widen(m.m10), test::widen(m.m11)};
 }
@@ -64,7 +77,7 @@ inline twice::Light widen(const Light& l) {
     return {test::widen(l.invisible), test::widen(l.visible)};
 }
 inline twice::Material widen(const Material& m) {
-    return {{test::widen(m.bsdf.diffuse)}, m.flags, widen(m.emission), test::widen(m.lightPdfArea)};
+    return {widen(m.bsdf), m.flags, widen(m.emission), test::widen(m.lightPdfArea)};
 }
 inline twice::FilmSum widen(const FilmSum& s) {
     return {s.r, s.g, s.b};
