@@ -8,6 +8,7 @@
 
 #include "host/bench/trace_kernel.h"
 #include "host/render/pixel_order.h"
+#include "host/scene/image_plane.h"
 
 namespace duolux {
 
@@ -28,15 +29,12 @@ class Random {
 };
 
 std::vector<TraceRay> primaryRays(const Camera& camera, std::uint32_t width, std::uint32_t height) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    const glm::vec3 up = glm::cross(right, forward);
-    const float half = std::tan(glm::radians(camera.vfov) / 2.0f);
+    const ImagePlane plane = imagePlane(camera, width, height);
     const glm::vec2 size(width, height);
     std::vector<TraceRay> rays;
     for (const std::uint32_t pixel : pixelOrder(width, height)) {
         const glm::vec2 at = (glm::vec2(pixel % width, pixel / width) + 0.5f) / size * 2.0f - 1.0f;
-        const glm::vec3 direction = forward + right * (at.x * half * size.x / size.y) - up * (at.y * half);
+        const glm::vec3 direction = plane.forward + at.x * plane.right - at.y * plane.up;
         rays.push_back({camera.position, 0.0f, glm::normalize(direction), kInfinity});
     }
     return rays;

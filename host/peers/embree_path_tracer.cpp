@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/render/pixel_order.h"
+#include "host/scene/image_plane.h"
 
 namespace duolux {
 
@@ -69,14 +70,10 @@ float balance(float a, float b) {
 class PathTracer {
   public:
     PathTracer(const EmbreeScene& embree, const Scene& scene, const LightTable& lights)
-        : embree_(embree), scene_(scene), lights_(lights) {
-        forward_ = glm::normalize(scene.camera.target - scene.camera.position);
-        const float half = std::tan(glm::radians(scene.camera.vfov) / 2.0f);
-        const vec3 right = glm::normalize(glm::cross(forward_, scene.camera.up));
-        up_ = glm::cross(right, forward_) * half;
-        right_ =
-            right * (half * static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height));
-    }
+        : embree_(embree),
+          scene_(scene),
+          lights_(lights),
+          plane_(imagePlane(scene.camera, scene.render.width, scene.render.height)) {}
 
     vec3 pixel(std::uint32_t pixel) const {
         vec3 sum(0.0f);
@@ -97,8 +94,8 @@ class PathTracer {
         const float x = static_cast<float>(pixel % scene_.render.width) + random.uniform();
         const float y = static_cast<float>(pixel / scene_.render.width) + random.uniform();
         vec3 origin = scene_.camera.position;
-        vec3 direction =
-            glm::normalize(forward_ + right_ * (x / size.x * 2.0f - 1.0f) - up_ * (y / size.y * 2.0f - 1.0f));
+        vec3 direction = glm::normalize(plane_.forward + plane_.right * (x / size.x * 2.0f - 1.0f) -
+                                        plane_.up * (y / size.y * 2.0f - 1.0f));
         vec3 radiance(0.0f);
         vec3 throughput(1.0f);
         float pdf = 0.0f;
@@ -171,7 +168,7 @@ class PathTracer {
     const EmbreeScene& embree_;
     const Scene& scene_;
     const LightTable& lights_;
-    vec3 forward_, right_, up_;
+    ImagePlane plane_;
 };
 
 }  // namespace

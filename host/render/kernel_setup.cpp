@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/scene/image_plane.h"
+
 namespace duolux {
 
 namespace {
@@ -21,20 +23,16 @@ constexpr float kUndisplayedWeight = 1.0f / 16.0f;
 
 shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene) {
     const Camera& camera = scene.camera;
-    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    const glm::vec3 up = glm::cross(right, forward);
-    const float halfHeight = std::tan(glm::radians(camera.vfov) / 2.0f);
-    const float aspect = static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height);
+    const ImagePlane plane = imagePlane(camera, scene.render.width, scene.render.height);
 
     shared::PathParams params{};
     params.cameraPosition = camera.position;
     params.width = scene.render.width;
-    params.cameraForward = forward;
+    params.cameraForward = plane.forward;
     params.height = scene.render.height;
-    params.cameraRight = right * (halfHeight * aspect);
+    params.cameraRight = plane.right;
     params.seed = scene.render.seed;
-    params.cameraUp = up * halfHeight;
+    params.cameraUp = plane.up;
     params.bounces = scene.render.bounces;
     const Reflectance& reflectance = commonReflectance(scene);
     params.opaque = deviceMatrix(reflectance.opaque);
@@ -49,7 +47,7 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
     params.emitterRoot = deviceScene.emitterRoot;
     params.emitterLower = deviceScene.emitterBounds.lower;
     params.emitterUpper = deviceScene.emitterBounds.upper;
-    params.imageArea = 4.0f * halfHeight * halfHeight * aspect;
+    params.imageArea = plane.area;
     return params;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "host/scene/image_plane.h"
 #include "shaders/shared/path_layout.h"
 #include "tests/reference/pinhole.h"
 #include "tests/shader/harness/census.h"
@@ -43,18 +44,15 @@ const ShaderLibrary& camera() {
 
 shared::PathParams paramsOf(const Camera& camera, std::uint32_t width = kWidth,
                             std::uint32_t height = kHeight) {
-    const Vec3 forward = glm::normalize(Vec3(camera.target) - Vec3(camera.position));
-    const Vec3 right = glm::normalize(glm::cross(forward, Vec3(camera.up)));
-    const double half = std::tan(static_cast<double>(camera.vfov) * std::numbers::pi / 360.0);
-    const double aspect = static_cast<double>(width) / height;
+    const ImagePlane plane = imagePlane(camera, width, height);
     shared::PathParams params{};
     params.width = width;
     params.height = height;
     params.cameraPosition = camera.position;
-    params.cameraForward = forward;
-    params.cameraRight = right * (half * aspect);
-    params.cameraUp = glm::cross(right, forward) * half;
-    params.imageArea = static_cast<float>(4.0 * half * half * aspect);
+    params.cameraForward = plane.forward;
+    params.cameraRight = plane.right;
+    params.cameraUp = plane.up;
+    params.imageArea = plane.area;
     return params;
 }
 
