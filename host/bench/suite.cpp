@@ -1,17 +1,14 @@
 #include "host/bench/suite.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 
 #include "host/base/error.h"
+#include "host/base/process.h"
 #include "host/bench/ray_sets.h"
 #include "host/bench/trace_kernel.h"
 #include "host/bvh/wide_bvh.h"
@@ -39,27 +36,11 @@ std::uintmax_t sceneBytes(const std::filesystem::path& scene) {
     return bytes;
 }
 
-/// Runs the program and waits. The environment is this one's, with `extra` before it.
-double secondsOfProgram(const std::vector<std::string>& arguments, const std::vector<std::string>& extra) {
-    std::vector<char*> argv, environment;
-    for (const std::string& a : arguments)
-        argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    for (const std::string& e : extra)
-        environment.push_back(const_cast<char*>(e.c_str()));
-    for (char** e = environ; *e != nullptr; ++e)
-        environment.push_back(*e);
-    environment.push_back(nullptr);
+double secondsOfProgram(const std::string& program, const std::vector<std::string>& arguments,
+                        const std::vector<std::string>& environment) {
     int status = 0;
-    const double seconds = secondsOf([&] {
-        pid_t child = 0;
-        if (posix_spawn(&child, argv[0], nullptr, nullptr, argv.data(), environment.data()) != 0 ||
-            waitpid(child, &status, 0) != child) {
-            throw MachineError(fmt::format("{}: cannot be started", arguments[0]));
-        }
-    });
-    if (status != 0)
-        throw MachineError(fmt::format("{}: failed as a benchmark of starting up", arguments[0]));
+    const double seconds = secondsOf([&] { status = runProcess(program, arguments, environment); });
+    if (status != 0) throw MachineError(fmt::format("{}: failed as a benchmark of starting up", program));
     return seconds;
 }
 
@@ -173,8 +154,7 @@ void SceneSuite::State::addHost() {
 
 void SceneSuite::State::addStart() {
     if (options.program.empty()) return;
-    const std::vector<std::string> arguments{options.program,
-                                             "render",
+    const std::vector<std::string> arguments{"render",
                                              path.string(),
                                              "--size",
                                              "64x64",
@@ -185,14 +165,17 @@ void SceneSuite::State::addStart() {
                                              std::to_string(device.info().index),
                                              "-o",
                                              (folder / "start.pfm").string()};
-    add("start/warm", "s", 1.0, [=] { return BenchTimes{secondsOfProgram(arguments, {}), 0.0}; });
+    add("start/warm", "s", 1.0, [=, this] {
+        return BenchTimes{secondsOfProgram(options.program, arguments, {}), 0.0};
+    });
     add("start/cold", "s", 1.0, [=, this] {
         const std::filesystem::path cache = folder / "cache";
         std::filesystem::remove_all(cache);
         std::filesystem::create_directories(cache);
-        return BenchTimes{secondsOfProgram(arguments, {"MESA_SHADER_CACHE_DIR=" + cache.string(),
-                                                       "XDG_CACHE_HOME=" + cache.string()}),
-                          0.0};
+        return BenchTimes{
+            secondsOfProgram(options.program, arguments,
+                             {"MESA_SHADER_CACHE_DIR=" + cache.string(), "XDG_CACHE_HOME=" + cache.string()}),
+            0.0};
     });
 }
 
