@@ -10,9 +10,9 @@
 #include "host/app/commands.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
+#include "host/base/temporary_folder.h"
 #include "host/bench/bench_report.h"
 #include "host/bench/builtin_scenes.h"
-#include "host/bench/scratch_folder.h"
 #include "host/bench/suite.h"
 
 namespace duolux {
@@ -54,7 +54,7 @@ void bench(const BenchOptions& options) {
     Device device(options.device);
     const bool table = options.json != "-";
     if (table) fmt::print("{}, {}\n", device.info().name, device.info().driver);
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     std::vector<BenchResult> results;
     for (const std::string& scene : options.scenes) {
         const std::string name = benchName(scene);

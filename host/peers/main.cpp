@@ -13,10 +13,10 @@
 
 #include "host/app/options.h"
 #include "host/base/error.h"
+#include "host/base/temporary_folder.h"
 #include "host/bench/bench_report.h"
 #include "host/bench/builtin_scenes.h"
 #include "host/bench/ray_sets.h"
-#include "host/bench/scratch_folder.h"
 #include "host/bench/trace_kernel.h"
 #include "host/bvh/wide_bvh.h"
 #include "host/peers/embree_path_tracer.h"
@@ -143,7 +143,7 @@ void printRatios(const std::vector<BenchResult>& results) {
 void run(const PeerOptions& options) {
     Device device(options.device);
     fmt::print("{}, {}\n", device.info().name, device.info().driver);
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     std::vector<BenchResult> results;
     for (const std::string& scene : options.scenes) {
         const bool builtin = isBuiltinScene(scene);

@@ -5,8 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "host/base/temporary_folder.h"
 #include "host/bench/builtin_scenes.h"
-#include "host/bench/scratch_folder.h"
 #include "host/bvh/binary_bvh.h"
 #include "host/bvh/collapse.h"
 #include "host/bvh/wide_bvh.h"
@@ -25,7 +25,7 @@ struct TwoSpheres {
 };
 
 const TwoSpheres& twoSpheres(std::int64_t triangles) {
-    static const ScratchFolder folder;
+    static const TemporaryFolder folder;
     static std::map<std::int64_t, TwoSpheres> made;
     TwoSpheres& entry = made[triangles];
     if (entry.file.empty()) {

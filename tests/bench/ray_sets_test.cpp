@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "host/base/temporary_folder.h"
 #include "host/bench/builtin_scenes.h"
 #include "host/bench/trace_kernel.h"
 #include "host/scene/load.h"
 #include "tests/reference/triangles.h"
 #include "tests/support/device.h"
-#include "tests/support/temporary_folder.h"
 
 namespace duolux::test {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/temporary_folder.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace duolux::test {
 

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <optional>
 
+#include "host/base/temporary_folder.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 // Which device the tests run on, and what happens without one.
 

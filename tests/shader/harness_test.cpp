@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "host/base/file.h"
+#include "host/base/temporary_folder.h"
 #include "tests/shader/harness/compiler.h"
 #include "tests/shader/harness/coverage.h"
 #include "tests/shader/harness/glsl_test.h"
 #include "tests/shader/harness/shader_function.h"
 #include "tests/support/statistics.h"
-#include "tests/support/temporary_folder.h"
 
 // The harness itself: what its expectations let pass, and what it says of those that fail.
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/temporary_folder.h"
 #include "host/render/render.h"
 #include "host/scene/load.h"
 #include "host/scene/two_spheres.h"
@@ -15,7 +16,6 @@
 #include "tests/support/device.h"
 #include "tests/support/exact_case.h"
 #include "tests/support/scene_builder.h"
-#include "tests/support/temporary_folder.h"
 
 // Light paths against closed forms, and against gathering, which shares neither the direction in which
 // matrices are multiplied nor the densities. (cornell_test.cpp compares them with the reference.)

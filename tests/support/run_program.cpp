@@ -12,7 +12,7 @@
 #include <string_view>
 #include <thread>
 
-#include "tests/support/temporary_folder.h"
+#include "host/base/temporary_folder.h"
 
 namespace duolux::test {
 

@@ -5,7 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "tests/support/temporary_folder.h"
+#include "host/base/temporary_folder.h"
 
 namespace duolux {
 namespace {
@@ -22,7 +22,7 @@ class FileTest : public testing::Test {
             std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
     }
 
-    test::TemporaryFolder temporary_;
+    TemporaryFolder temporary_;
     fs::path folder_ = temporary_.path();
 };
 

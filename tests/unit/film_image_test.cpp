@@ -24,7 +24,6 @@ namespace {
 
 using test::plainImage;
 using test::sameBits;
-using test::TemporaryFolder;
 using test::variedImage;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();

@@ -16,7 +16,6 @@ namespace duolux {
 namespace {
 
 using test::plainImage;
-using test::TemporaryFolder;
 using test::variedImage;
 using test::writeText;
 using testing::HasSubstr;

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "host/base/temporary_folder.h"
 #include "host/film/image.h"
-#include "tests/support/temporary_folder.h"
 
 namespace duolux::test {
 

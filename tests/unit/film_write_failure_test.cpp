@@ -13,7 +13,6 @@
 namespace duolux {
 namespace {
 
-using test::TemporaryFolder;
 using test::variedImage;
 using test::writeText;
 using testing::HasSubstr;

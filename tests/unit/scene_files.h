@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "host/base/temporary_folder.h"
 #include "host/scene/scene.h"
-#include "tests/support/temporary_folder.h"
 
 namespace duolux::test {
 

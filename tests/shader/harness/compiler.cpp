@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "host/base/file.h"
+#include "host/base/temporary_folder.h"
 #include "tests/shader/harness/kernel_run.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace duolux::test {
 

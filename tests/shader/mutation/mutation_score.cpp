@@ -17,9 +17,9 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/temporary_folder.h"
 #include "tests/shader/harness/source_text.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -159,7 +159,7 @@ int main(int argc, char** argv) {
             try {
                 for (std::size_t i = next++; i < mutations.size(); i = next++) {
                     Mutation& m = mutations[i];
-                    const test::TemporaryFolder folder;
+                    const TemporaryFolder folder;
                     const std::filesystem::path file = folder.path() / "shaders" / m.file;
                     std::filesystem::create_directories(file.parent_path());
                     writeFile(file, mutate(list, m, shaders));

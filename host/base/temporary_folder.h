@@ -1,19 +1,23 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
-namespace duolux::test {
+#include "host/base/error.h"
 
-/// A new empty folder that is removed with everything in it at the end of its scope.
+namespace duolux {
+
+/// A new empty folder that is removed with everything in it at the end of its scope. Throws MachineError if
+/// it cannot be made.
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "duolux-test-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+        std::string name = (std::filesystem::temp_directory_path() / "duolux-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) throw MachineError(fmt::format("{}: cannot be made", name));
         path_ = name;
     }
     ~TemporaryFolder() {
@@ -22,7 +26,6 @@ class TemporaryFolder {
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
     const std::filesystem::path& path() const { return path_; }
 
@@ -30,4 +33,4 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-}  // namespace duolux::test
+}  // namespace duolux
