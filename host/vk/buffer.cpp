@@ -1,6 +1,7 @@
 #include "host/vk/buffer.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <optional>
@@ -50,6 +51,15 @@ void checkLimits(const DeviceInfo& info, BufferUse use, std::uint64_t size, std:
     if (use == BufferUse::kStorage && size > info.maxStorageBufferRange) fail(info.maxStorageBufferRange);
 }
 
+/// The memory of a software driver is this process's own: asks for huge pages, or random reads of a large
+/// tree wait for the translation of addresses. It is advice; where it is not taken, all works as before.
+void adviseHugePages(void* begin, std::uint64_t size) {
+    constexpr std::uintptr_t kHugePage = std::uintptr_t{2} << 20;
+    const auto first = (reinterpret_cast<std::uintptr_t>(begin) + kHugePage - 1) / kHugePage * kHugePage;
+    const auto last = (reinterpret_cast<std::uintptr_t>(begin) + size) / kHugePage * kHugePage;
+    if (first < last) static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+}
+
 }  // namespace
 
 Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
@@ -82,6 +92,7 @@ Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::Buff
         const vk::MemoryPropertyFlags flags = properties.memoryTypes[*type].propertyFlags;
         coherent_ = static_cast<bool>(flags & Flag::eHostCoherent);
         if (flags & Flag::eHostVisible) mapped_ = memory_.mapMemory(0, VK_WHOLE_SIZE);
+        if (mapped_ != nullptr && device.info().kind == DeviceKind::kCpu) adviseHugePages(mapped_, size_);
         if (use == BufferUse::kTexels && memory != Memory::kStaging) {
             view_ = vk::raii::BufferView(
                 *device_,
