@@ -128,9 +128,10 @@ void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex,
     vec3 localWo = toFrame(vertex.point.shadingNormal, wo);
     vec3 localWi = toFrame(vertex.point.shadingNormal, direction);
     float cosAtVertex = localWi.z;
-    float misWeight = balanceHeuristic(pdf, bsdfPdf(vertex.bsdf, localWo, localWi));
     vec3 f = bsdfEvaluate(vertex.bsdf, localWo, localWi);
-    LightMatrix importance = lightScale(vertex.importance, f * (cosAtVertex * misWeight / pdf));
+    // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf.
+    float weight = 1.0 / (pdf + bsdfPdf(vertex.bsdf, localWo, localWi));
+    LightMatrix importance = lightScale(vertex.importance, f * (cosAtVertex * weight));
     Light contribution = lightApply(importance, emission);
     bool contributes = cosAtVertex > 0.0 && dot(vertex.point.geometricNormal, direction) > 0.0 && distance > 0.0 &&
                        maxComponent(contribution.invisible + contribution.visible) > 0.0;

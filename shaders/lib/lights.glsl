@@ -46,7 +46,7 @@ LightSample sampleLight(uint lightCount, uvec2 u) {
     bool keep = rest < threshold;
     index = keep ? index : entry.y;
     // The rest of the random number is uniform again within its interval.
-    float remapped = keep ? rest / threshold : (rest - threshold) / (1.0 - threshold);
+    float remapped = (keep ? rest : rest - threshold) / (keep ? threshold : 1.0 - threshold);
     vec2 b = uniformTriangle(vec2(min(remapped, 0.99999994), uniformFloat(u.y)));
 
     LightTriangle light = fetchLight(index);
