@@ -37,26 +37,29 @@ Json spreadJson(const Spread& spread) {
 
 std::string benchTable(std::span<const BenchResult> results) {
     const std::size_t width = widestName(results);
-    std::string table = fmt::format("{:<{}} {:>8} {:>8} {:>8}  {:<13} {:>8}\n", "benchmark", width, "low",
-                                    "median", "high", "unit", "device");
+    std::string table = fmt::format("{:<{}} {:>8} {:>8} {:>8}  {:<13} {:>8} {:>8}\n", "benchmark", width,
+                                    "low", "median", "high", "unit", "device", "seconds");
+    std::string perRay, perItem;
     for (const BenchResult& r : results) {
         const Spread wall = r.wall();
-        table += fmt::format("{:<{}} {:>8} {:>8} {:>8}  {:<13} {:>8}\n", r.name, width, number(wall.low),
-                             number(wall.median), number(wall.high), r.unit, number(r.device().median));
-    }
-    bool title = false;
-    for (const BenchResult& r : results) {
-        if (!r.notes.contains("nodes_per_ray")) continue;
-        if (!title) {
-            table += fmt::format("\n{:<{}} {:>8} {:>8} {:>8}   lanes busy in nodes, triangles\n", "per ray",
-                                 width, "nodes", "tests", "bytes");
+        table += fmt::format("{:<{}} {:>8} {:>8} {:>8}  {:<13} {:>8} {:>8}\n", r.name, width,
+                             number(wall.low), number(wall.median), number(wall.high), r.unit,
+                             number(r.device().median), number(r.seconds()));
+        if (r.notes.contains("nodes_per_ray")) {
+            perRay += fmt::format("{:<{}} {:>8.1f} {:>8.1f} {:>8.0f}   {:.0f} %, {:.0f} %\n", r.name, width,
+                                  r.notes.at("nodes_per_ray"), r.notes.at("triangles_per_ray"),
+                                  r.notes.at("bytes_per_ray"), 100.0 * r.notes.at("lanes_in_nodes"),
+                                  100.0 * r.notes.at("lanes_in_triangles"));
+            continue;
         }
-        title = true;
-        table += fmt::format("{:<{}} {:>8.1f} {:>8.1f} {:>8.0f}   {:.0f} %, {:.0f} %\n", r.name, width,
-                             r.notes.at("nodes_per_ray"), r.notes.at("triangles_per_ray"),
-                             r.notes.at("bytes_per_ray"), 100.0 * r.notes.at("lanes_in_nodes"),
-                             100.0 * r.notes.at("lanes_in_triangles"));
+        for (const auto& [note, value] : r.notes)
+            perItem += fmt::format("{:<{}} {:>8.1f}   {}\n", r.name, width, value, note);
     }
+    if (!perRay.empty()) {
+        table += fmt::format("\n{:<{}} {:>8} {:>8} {:>8}   lanes busy in nodes, triangles\n{}", "per ray",
+                             width, "nodes", "tests", "bytes", perRay);
+    }
+    if (!perItem.empty()) table += "\n" + perItem;
     return table;
 }
 

@@ -11,7 +11,8 @@
 
 namespace duolux {
 
-/// A table for people: rates of wall time, lowest, median and highest, and of device time.
+/// A table for people: rates of wall time, lowest, median and highest, and of device time; seconds of a run;
+/// and the notes.
 std::string benchTable(std::span<const BenchResult> results);
 
 /// Everything, as JSON with a "version".

@@ -34,6 +34,13 @@ Spread BenchResult::device() const {
     return spreadOfRates(*this, &BenchTimes::device);
 }
 
+double BenchResult::seconds() const {
+    std::vector<double> values;
+    for (const BenchTimes& t : times)
+        values.push_back(t.wall);
+    return values.empty() ? 0.0 : spreadOf(std::move(values)).median;
+}
+
 std::vector<BenchResult> runBenchmarks(const std::vector<Benchmark>& benchmarks, std::uint32_t repeats,
                                        const std::function<void(const std::string&)>& onRun) {
     std::vector<BenchResult> results;

@@ -40,6 +40,8 @@ struct BenchResult {
     /// Work per second, or seconds, of wall time; of device time (all 0 where there is none).
     Spread wall() const;
     Spread device() const;
+    /// Median of the seconds of wall time that a run took.
+    double seconds() const;
 };
 
 /// Runs each benchmark once without counting it, then all in turns, `repeats` times: what disturbs the

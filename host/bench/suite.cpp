@@ -12,6 +12,9 @@
 #include "host/bench/ray_sets.h"
 #include "host/bench/trace_kernel.h"
 #include "host/bvh/wide_bvh.h"
+#include "host/render/light_kernel.h"
+#include "host/render/path_kernel.h"
+#include "host/render/pixel_order.h"
 #include "host/render/render.h"
 #include "host/scene/load.h"
 
@@ -23,17 +26,6 @@ double secondsOf(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Bytes of all files beside a scene that it may consist of: what loading reads.
-std::uintmax_t sceneBytes(const std::filesystem::path& scene) {
-    std::uintmax_t bytes = 0;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(scene.parent_path(), ignored)) {
-        const auto extension = entry.path().extension();
-        if (extension == ".obj" || extension == ".mtl" || extension == ".json") bytes += entry.file_size();
-    }
-    return bytes;
 }
 
 double secondsOfProgram(const std::string& program, const std::vector<std::string>& arguments,
@@ -51,8 +43,11 @@ struct NamedReflectance {
 constexpr NamedReflectance kPresets[] = {
     {"global", UINT32_MAX}, {"shadowless", 4}, {"one-bounce", UINT32_MAX}, {"local", UINT32_MAX}};
 
-/// Passes that take about this long, so that what a submission costs does not count.
-constexpr double kSecondsPerRun = 0.05;
+/// How often to do what takes so many seconds, so that what a run costs besides does not count.
+std::uint32_t passesOf(double seconds) {
+    constexpr double kSecondsPerRun = 0.05;
+    return static_cast<std::uint32_t>(std::clamp(std::ceil(kSecondsPerRun / seconds), 1.0, 1000.0));
+}
 
 }  // namespace
 
@@ -84,6 +79,9 @@ struct SceneSuite::State {
 
     void addRays();
     void addRenders();
+    void addFilm(const std::string& integrator, std::size_t pixels, std::size_t bytesPerPixel,
+                 const std::function<void()>& readBack);
+    void addFilms();
     void addHost();
     void addStart();
 };
@@ -108,9 +106,7 @@ void SceneSuite::State::addRays() {
         TraceKernel& kernel = *kernels.back();
         kernel.run();
         kernel.hits();  // throws if the driver has cut it short
-        const double once = kernel.run().wall;
-        const auto passes =
-            static_cast<std::uint32_t>(std::clamp(std::ceil(kSecondsPerRun / once), 1.0, 1000.0));
+        const std::uint32_t passes = passesOf(kernel.run().wall);
         add(
             "rays/" + set.name, "Mrays/s", rays * passes * 1e-6,
             [&kernel, passes] { return kernel.run(passes); }, notes);
@@ -137,19 +133,58 @@ void SceneSuite::State::addRenders() {
     }
 }
 
+void SceneSuite::State::addFilm(const std::string& integrator, std::size_t pixels, std::size_t bytesPerPixel,
+                                const std::function<void()>& readBack) {
+    readBack();
+    const std::uint32_t passes = passesOf(secondsOf(readBack));
+    add("film/" + integrator, "Mpixels/s", static_cast<double>(pixels) * passes * 1e-6,
+        [readBack, passes] {
+            return BenchTimes{secondsOf([&] {
+                                  for (std::uint32_t pass = 0; pass < passes; ++pass)
+                                      readBack();
+                              }),
+                              0.0};
+        },
+        {{"bytes_per_pixel", static_cast<double>(bytesPerPixel)}});
+}
+
+/// From the results of a dispatch, which is done, to the film of the render.
+void SceneSuite::State::addFilms() {
+    Scene changed = scene;
+    changed.render.width = options.width;
+    changed.render.height = options.height;
+    changed.render.bounces = 1;
+    const auto film = std::make_shared<Film>(options.width, options.height, deviceScene.quantum);
+
+    const auto pixels =
+        std::make_shared<std::vector<std::uint32_t>>(pixelOrder(options.width, options.height));
+    const auto slots =
+        static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxSlots));
+    const auto gathering = std::make_shared<PathKernel>(device, deviceScene, changed, *pixels, slots, false);
+    gathering->submit(0, {0, slots, 0, 1});
+    gathering->wait(0);
+    addFilm("path", slots, sizeof(shared::SlotResult),
+            [pixels, gathering, film] { gathering->addTo(*film, 0); });
+
+    const auto shooting =
+        std::make_shared<LightKernel>(device, deviceScene, changed, 1, LightKernel::Limits{});
+    addFilm("light", pixels->size(), sizeof(Film::PixelSum), [shooting, film] { shooting->takeFilm(*film); });
+}
+
 void SceneSuite::State::addHost() {
     const auto triangles = static_cast<double>(scene.geometry.triangles.size());
-    add("load", "MB/s", static_cast<double>(sceneBytes(path)) * 1e-6, [this] {
+    add("load", "MB/s", static_cast<double>(scene.meshBytes) * 1e-6, [this] {
         return BenchTimes{secondsOf([this] { loadScene(path); }), 0.0};
     });
-    add("build", "Mtriangles/s", triangles * 1e-6,
-        [this] {
-            return BenchTimes{secondsOf([this] { buildWideBvh(scene.geometry); }), 0.0};
-        },
-        {{"device_bytes_per_triangle", static_cast<double>(deviceScene.deviceBytes()) / triangles}});
-    add("upload", "MB/s", static_cast<double>(deviceScene.deviceBytes()) * 1e-6, [this] {
-        return BenchTimes{uploadScene(device, scene).uploadSeconds, 0.0};
+    add("build", "Mtriangles/s", triangles * 1e-6, [this] {
+        return BenchTimes{secondsOf([this] { buildWideBvh(scene.geometry); }), 0.0};
     });
+    const auto bytes = static_cast<double>(deviceScene.deviceBytes());
+    add("upload", "MB/s", bytes * 1e-6,
+        [this] {
+            return BenchTimes{uploadScene(device, scene).uploadSeconds, 0.0};
+        },
+        {{"bytes_per_triangle", bytes / triangles}});
 }
 
 void SceneSuite::State::addStart() {
@@ -184,6 +219,7 @@ SceneSuite::SceneSuite(Device& device, std::string name, const std::filesystem::
     : state_(std::make_unique<State>(device, std::move(name), scene, std::move(folder), std::move(options))) {
     state_->addRays();
     state_->addRenders();
+    state_->addFilms();
     state_->addHost();
     state_->addStart();
 }

@@ -22,7 +22,7 @@ class Gatherer {
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxSlots = std::min<std::uint32_t>(
             static_cast<std::uint32_t>(pixels_.size()),
-            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : kMaxSlots);
+            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathKernel::kMaxSlots);
         statistics.directLightInClosedForm = chooseClosedForm();
         PathKernel kernel(context_.device, context_.deviceScene, context_.scene, pixels_, maxSlots,
                           statistics.directLightInClosedForm);
@@ -33,8 +33,6 @@ class Gatherer {
     }
 
   private:
-    static constexpr std::uint32_t kMaxSlots = 1u << 18;
-
     bool chooseClosedForm() const {
         const bool applies = context_.deviceScene.closedFormApplies;
         const DirectLight wanted = context_.control.directLight;
@@ -98,7 +96,7 @@ class Gatherer {
         const PathKernel::Results results = kernel.wait(place);
         context_.received(results.deviceSeconds, results.range.size());
         if (results.complete) {
-            add(results);
+            add(kernel.addTo(context_.film, place), results.range);
             schedule.traced(results.range);
             return;
         }
@@ -110,33 +108,21 @@ class Gatherer {
         schedule.retry(results.range);
     }
 
-    void add(const PathKernel::Results& results) {
+    void add(const PathKernel::Totals& totals, const WorkRange& range) {
         RenderStatistics& statistics = context_.statistics;
-        sums_.resize(results.slots.size());
-        for (std::size_t i = 0; i < results.slots.size(); ++i) {
-            const shared::SlotResult& r = results.slots[i];
-            for (std::size_t c = 0; c < 3; ++c) {
-                sums_[i].invisible[c] = signed64(r.invisible[2 * c], r.invisible[2 * c + 1]);
-                sums_[i].visible[c] = signed64(r.visible[2 * c], r.visible[2 * c + 1]);
-            }
-            statistics.nonFiniteSamples += r.nonFinite;
-            statistics.filmOverflowed = statistics.filmOverflowed || r.clamped > 0;
-            statistics.cameraRays += r.cameraRays;
-            statistics.bounceRays += r.bounceRays;
-            statistics.shadowRays += r.shadowRays;
-            statistics.emitterRays += r.emitterRays;
-            context_.lastBounce += static_cast<double>(r.lastBounce);
-            context_.previousBounce += static_cast<double>(r.previousBounce);
-        }
-        const std::span<const std::uint32_t> pixels(pixels_.data() + results.range.firstSlot,
-                                                    results.range.slots);
-        context_.film.add(pixels, sums_, results.range.samples);
-        statistics.samples += results.range.size();
+        statistics.samples += range.size();
+        statistics.nonFiniteSamples += totals.nonFinite;
+        statistics.filmOverflowed = statistics.filmOverflowed || totals.clamped;
+        statistics.cameraRays += totals.cameraRays;
+        statistics.bounceRays += totals.bounceRays;
+        statistics.shadowRays += totals.shadowRays;
+        statistics.emitterRays += totals.emitterRays;
+        context_.lastBounce += totals.lastBounce;
+        context_.previousBounce += totals.previousBounce;
     }
 
     RenderContext& context_;
     std::vector<std::uint32_t> pixels_;
-    std::vector<Film::PixelSum> sums_;
 };
 
 }  // namespace

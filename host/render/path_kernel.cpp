@@ -34,17 +34,18 @@ PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, con
                        std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm)
     : laneSamples_(chooseLanePaths(device, deviceScene.traits)),
       maxSlots_(maxSlots),
+      pixels_(pixels),
       teams_(device, maxSlots),
       params_(uploadParams(device, deviceScene, scene)),
-      pixels_(Buffer::upload(device, BufferUse::kTexels, pixels, "pixel order")),
+      pixelOrder_(Buffer::upload(device, BufferUse::kTexels, pixels, "pixel order")),
       results_(Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxSlots}, "results")),
       kernel_(device, "path", spirv::kPathKernel,
-              pathBindings(sceneBindings(deviceScene, params_), pixels_, results_, teams_),
+              pathBindings(sceneBindings(deviceScene, params_), pixelOrder_, results_, teams_),
               specialize(deviceScene, scene, teams_, closedForm), sizeof(shared::DispatchParams)),
       commands_{CommandSlot(device), CommandSlot(device)} {}
 
 std::uint64_t PathKernel::deviceBytes() const {
-    return params_.allocated() + pixels_.allocated() + results_.allocated() + teams_.deviceBytes();
+    return params_.allocated() + pixelOrder_.allocated() + results_.allocated() + teams_.deviceBytes();
 }
 
 void PathKernel::submit(unsigned place, const WorkRange& range) {
@@ -61,15 +62,34 @@ void PathKernel::submit(unsigned place, const WorkRange& range) {
 
 PathKernel::Results PathKernel::wait(unsigned place) {
     const double seconds = commands_[place].wait("tracing paths");
-    results_.invalidate();
     const auto& [range, teamSlots] = submitted_[place];
+    return {range, teamSlots / teams_.lanes() * range.samples, teams_.complete(place), seconds};
+}
+
+PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
+    results_.invalidate();
+    const WorkRange& range = submitted_[place].range;
     const auto* slots =
         reinterpret_cast<const shared::SlotResult*>(results_.mapped()) + std::size_t{place} * maxSlots_;
-    return {range,
-            teamSlots / teams_.lanes() * range.samples,
-            teams_.complete(place),
-            {slots, range.slots},
-            seconds};
+    Totals totals;
+    sums_.resize(range.slots);
+    for (std::size_t i = 0; i < range.slots; ++i) {
+        const shared::SlotResult& r = slots[i];
+        for (std::size_t c = 0; c < 3; ++c) {
+            sums_[i].invisible[c] = signed64(r.invisible[2 * c], r.invisible[2 * c + 1]);
+            sums_[i].visible[c] = signed64(r.visible[2 * c], r.visible[2 * c + 1]);
+        }
+        totals.nonFinite += r.nonFinite;
+        totals.clamped = totals.clamped || r.clamped > 0;
+        totals.cameraRays += r.cameraRays;
+        totals.bounceRays += r.bounceRays;
+        totals.shadowRays += r.shadowRays;
+        totals.emitterRays += r.emitterRays;
+        totals.lastBounce += static_cast<double>(r.lastBounce);
+        totals.previousBounce += static_cast<double>(r.previousBounce);
+    }
+    film.add(pixels_.subspan(range.firstSlot, range.slots), sums_, range.samples);
+    return totals;
 }
 
 }  // namespace duolux

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "host/film/film.h"
 #include "host/gpu/device_scene.h"
 #include "host/render/schedule.h"
 #include "host/render/teams.h"
@@ -21,9 +24,11 @@ class PathKernel {
     /// Largest number of samples of a slot in one dispatch. Their sum fits the device's 64 bits by far
     /// (film.glsl clamps a sample at 2^56 quanta).
     static constexpr std::uint32_t kMaxSamples = 16;
+    /// Largest number of slots that a dispatch need have.
+    static constexpr std::uint32_t kMaxSlots = 1u << 18;
 
     /// `maxSlots`: of one dispatch. `closedForm`: direct light is not sampled. `scene` and `deviceScene` must
-    /// belong together; deviceScene must outlive this.
+    /// belong together; deviceScene and pixels must outlive this.
     PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
                std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm);
 
@@ -43,11 +48,20 @@ class PathKernel {
         WorkRange range;
         std::uint32_t laneSamples;  ///< the most that a lane had to take
         bool complete;              ///< no team was cut short by the driver
-        std::span<const shared::SlotResult> slots;
         double deviceSeconds;
     };
-    /// Waits for the dispatch in a place. What is returned is valid until the next submit to it.
+    /// Waits for the dispatch in a place.
     Results wait(unsigned place);
+
+    /// What the statistics take of a dispatch: sums over its samples. See shared::SlotResult.
+    struct Totals {
+        std::uint64_t nonFinite = 0, cameraRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
+        double lastBounce = 0.0, previousBounce = 0.0;
+        bool clamped = false;
+    };
+    /// Adds the sums of the dispatch in a place, which was waited for, to a film of the scene's size and
+    /// quantum.
+    Totals addTo(Film& film, unsigned place);
 
   private:
     struct Submitted {
@@ -56,8 +70,10 @@ class PathKernel {
     };
 
     std::uint32_t laneSamples_, maxSlots_;
+    std::span<const std::uint32_t> pixels_;
+    std::vector<Film::PixelSum> sums_;  // of a dispatch
     Teams teams_;
-    Buffer params_, pixels_, results_;
+    Buffer params_, pixelOrder_, results_;
     Kernel kernel_;
     std::array<CommandSlot, 2> commands_;
     std::array<Submitted, 2> submitted_{};

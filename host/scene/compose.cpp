@@ -105,6 +105,7 @@ void appendMesh(Scene& scene, Mesh mesh) {
     for (std::uint32_t& material : mesh.geometry.materials)
         material = indices[material];
     appendGeometry(scene.geometry, std::move(mesh.geometry));
+    scene.meshBytes += mesh.bytes;
     for (std::string& warning : mesh.warnings)
         scene.warnings.push_back(std::move(warning));
 }

@@ -125,6 +125,7 @@ class MeshCache {
             entry->second = loadObj(path);
         } else {
             entry->second.warnings.clear();
+            entry->second.bytes = 0;
         }
         return entry->second;
     }

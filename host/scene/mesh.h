@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ struct Mesh {
     Geometry geometry;
     std::vector<Material> materials;  ///< of its MTL files, used or not, and those that faces name besides
     std::vector<std::string> warnings;
+    std::uint64_t bytes = 0;  ///< of the text
 };
 
 /// Name of the material of faces that come before any `usemtl`.

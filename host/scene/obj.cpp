@@ -251,6 +251,7 @@ Mesh loadObj(const fs::path& path) {
     ObjFile file;
     {
         SourceText text(path);
+        mesh.bytes = text.size();
         file = parseObj(text);
         warnOfIgnored(text, file, mesh);
     }

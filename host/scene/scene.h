@@ -82,6 +82,7 @@ struct Scene {
     Reflectance reflectance;        ///< scene-wide
     std::vector<Material> materials;
     Geometry geometry;
+    std::uint64_t meshBytes = 0;  ///< of text in the mesh files that were read
     std::vector<std::string>
         warnings;  ///< for the user: default light used, missing MTL, degenerate triangles ...
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "host/base/file.h"
@@ -40,24 +42,45 @@ TEST_F(BenchCommand, MeasuresEverythingOnASmallScene) {
             "cornell/render/global/path", "cornell/render/global/light", "cornell/render/shadowless/path",
             "cornell/render/shadowless/light", "cornell/render/one-bounce/path",
             "cornell/render/one-bounce/light", "cornell/render/local/path", "cornell/render/local/light",
-            "cornell/load", "cornell/build", "cornell/upload", "cornell/start/warm", "cornell/start/cold"));
-    EXPECT_GT(json["results"][0]["notes"]["nodes_per_ray"].get<double>(), 1.0);
+            "cornell/film/path", "cornell/film/light", "cornell/load", "cornell/build", "cornell/upload",
+            "cornell/start/warm", "cornell/start/cold"));
+    const auto of = [&](const std::string& name) {
+        const auto at = std::find(names.begin(), names.end(), name);
+        return json["results"][static_cast<std::size_t>(at - names.begin())];
+    };
+    EXPECT_GT(of("cornell/rays/primary")["notes"]["nodes_per_ray"].get<double>(), 1.0);
+    // 48 bytes of a triangle at least, and the root.
+    const double bytes = of("cornell/upload")["notes"]["bytes_per_triangle"];
+    EXPECT_GT(bytes, 48.0);
+    EXPECT_NEAR(bytes * 38.0 * 1e-6, of("cornell/upload")["work"], 1e-9);
+    EXPECT_EQ(of("cornell/load")["unit"], "MB/s");
+    EXPECT_NEAR(of("cornell/load")["work"].get<double>() * 1e6,
+                static_cast<double>(std::filesystem::file_size(DUOLUX_ASSETS "/cornell/cornell.obj")), 1.0);
+    EXPECT_EQ(of("cornell/film/path")["unit"], "Mpixels/s");
     EXPECT_THAT(json["device"]["driver"], HasSubstr("llvmpipe"));
+    EXPECT_EQ(json["device"]["kind"], "cpu");
+    EXPECT_NE(json["device"]["name"], "");
+    EXPECT_NE(json["program"]["version"], "");
+    EXPECT_NE(json["program"]["commit"], "");
+    EXPECT_EQ(json["settings"],
+              nlohmann::json::parse(R"({"width": 16, "height": 16, "spp": 1, "bounces": 16, "repeat": 2})"));
 }
 
 TEST_F(BenchCommand, ComparesWithABaseline) {
-    const std::vector<std::string> arguments{"cornell", "--size", "16x16",        "--repeat",
-                                             "1",       "--only", "rays/primary", "--quiet"};
+    const std::vector<std::string> arguments{"cornell",   "--size", "16x16",        "--repeat",
+                                             "1",         "--only", "rays/primary", "--only",
+                                             "film/path", "--only", "cornell/load", "--quiet"};
     std::vector<std::string> first = arguments;
     first.insert(first.end(), {"--json", "a.json"});
     const ProgramResult written = bench(first);
     ASSERT_EQ(written.status, 0) << written.err;
     EXPECT_EQ(written.err, "");
     nlohmann::json json = nlohmann::json::parse(contentsOf(folder_ / "a.json"));
-    ASSERT_EQ(json["results"].size(), 1u);
+    ASSERT_EQ(json["results"].size(), 3u);
     const auto compare = [&](double factor) {
         nlohmann::json changed = json;
-        changed["results"][0]["wall"]["median"] = factor * json["results"][0]["wall"]["median"].get<double>();
+        for (nlohmann::json& result : changed["results"])
+            result["wall"]["median"] = factor * result["wall"]["median"].get<double>();
         writeFile(folder_ / "b.json", changed.dump());
         std::vector<std::string> second = arguments;
         second.insert(second.end(), {"--baseline", "b.json"});
@@ -67,9 +90,9 @@ TEST_F(BenchCommand, ComparesWithABaseline) {
     EXPECT_EQ(faster.status, 0) << faster.err;
     const ProgramResult slower = compare(1e3);
     EXPECT_EQ(slower.status, 1);
-    EXPECT_THAT(
-        slower.err,
-        HasSubstr("1 of 1 benchmarks are more than 10 % slower than in b.json: cornell/rays/primary"));
+    EXPECT_THAT(slower.err,
+                HasSubstr("3 of 3 benchmarks are more than 10 % slower than in b.json: cornell/rays/primary, "
+                          "cornell/film/path, cornell/load"));
 }
 
 TEST_F(BenchCommand, GivesJsonAloneOnStandardOutput) {
