@@ -14,7 +14,8 @@ namespace duolux {
 
 namespace {
 
-constexpr int kBins = 16;
+constexpr std::size_t kMostBins = 256;
+constexpr std::uint32_t kMostSwept = 16;
 constexpr std::uint32_t kParallelThreshold = 8192;  // smaller subtrees are built by one thread
 
 struct Task {
@@ -44,24 +45,72 @@ Extent extentOf(std::span<const PrimitiveRef> refs) {
     return extent;
 }
 
-/// Partitions by binned SAH; returns the size of the left part, 0 if the centres cannot be told apart.
+/// Partitions at the best of all splits between two different centres (MacDonald, Booth, "Heuristics for Ray
+/// Tracing Using Space Subdivision", 1990); for few primitives. Returns the size of the left part, 0 if the
+/// centres are all the same.
+std::uint32_t splitByFullSweep(std::span<PrimitiveRef> refs) {
+    struct Place {
+        float centre;
+        std::uint32_t ref;
+    };
+    const auto count = static_cast<std::uint32_t>(refs.size());
+    float bestCost = std::numeric_limits<float>::max();
+    int bestAxis = -1;
+    float bestCentre = 0.0f;  // the last one of the left part
+    for (int axis = 0; axis < 3; ++axis) {
+        Place places[kMostSwept];
+        for (std::uint32_t i = 0; i < count; ++i)
+            places[i] = {refs[i].lower[axis] + refs[i].upper[axis], i};
+        std::sort(places, places + count, [](const Place& a, const Place& b) { return a.centre < b.centre; });
+        float rightCost[kMostSwept];
+        Aabb right;
+        for (std::uint32_t i = count; --i > 0;) {
+            right.grow(boxOf(refs[places[i].ref]));
+            rightCost[i] = right.halfArea() * static_cast<float>(count - i);
+        }
+        Aabb left;
+        for (std::uint32_t i = 1; i < count; ++i) {
+            left.grow(boxOf(refs[places[i - 1].ref]));
+            if (places[i - 1].centre == places[i].centre) continue;
+            const float cost = left.halfArea() * static_cast<float>(i) + rightCost[i];
+            if (cost < bestCost) {
+                bestCost = cost;
+                bestAxis = axis;
+                bestCentre = places[i - 1].centre;
+            }
+        }
+    }
+    if (bestAxis < 0) return 0;
+    const auto middle = std::partition(refs.begin(), refs.end(), [&](const PrimitiveRef& ref) {
+        return ref.lower[bestAxis] + ref.upper[bestAxis] <= bestCentre;
+    });
+    return static_cast<std::uint32_t>(middle - refs.begin());
+}
+
+/// Partitions by SAH, in bins where there are many primitives; returns the size of the left part, 0 if the
+/// centres cannot be told apart.
 std::uint32_t splitBySah(std::span<PrimitiveRef> refs, const Aabb& centres) {
+    if (refs.size() <= kMostSwept) return splitByFullSweep(refs);
     struct Bin {
         Aabb bounds;
-        std::uint32_t count = 0;
+        std::uint32_t count;
     };
+    // So many that looking through them takes a small part of the time that filling them takes.
+    const std::size_t binCount = std::min(32 + refs.size() / 16, kMostBins);
     const glm::vec3 size = centres.upper - centres.lower;
     glm::vec3 scale;
     for (int axis = 0; axis < 3; ++axis) {
-        scale[axis] = size[axis] > 0.0f ? static_cast<float>(kBins) * 0.9999f / size[axis] : 0.0f;
+        scale[axis] = size[axis] > 0.0f ? static_cast<float>(binCount) * 0.9999f / size[axis] : 0.0f;
         if (!(scale[axis] < 1e30f)) scale[axis] = 0.0f;  // an extent so small that its inverse overflows
     }
     auto binOf = [&](const PrimitiveRef& ref, int axis) {
         const float x = (ref.lower[axis] + ref.upper[axis] - centres.lower[axis]) * scale[axis];
-        return std::min(static_cast<int>(x), kBins - 1);
+        return std::min(static_cast<std::size_t>(x), binCount - 1);
     };
 
-    Bin bins[3][kBins];
+    Bin bins[3][kMostBins];
+    for (auto& ofAxis : bins)
+        std::fill_n(ofAxis, binCount, Bin{{}, 0});
     for (const PrimitiveRef& ref : refs) {
         const Aabb box = boxOf(ref);
         for (int axis = 0; axis < 3; ++axis) {
@@ -73,20 +122,20 @@ std::uint32_t splitBySah(std::span<PrimitiveRef> refs, const Aabb& centres) {
 
     float bestCost = std::numeric_limits<float>::max();
     int bestAxis = -1;
-    int bestBin = 0;
+    std::size_t bestBin = 0;
     for (int axis = 0; axis < 3; ++axis) {
         if (scale[axis] == 0.0f) continue;
-        float rightCost[kBins];
+        float rightCost[kMostBins];
         Aabb right;
         std::uint32_t rightCount = 0;
-        for (int i = kBins - 1; i > 0; --i) {
+        for (std::size_t i = binCount - 1; i > 0; --i) {
             right.grow(bins[axis][i].bounds);
             rightCount += bins[axis][i].count;
             rightCost[i] = rightCount > 0 ? right.halfArea() * static_cast<float>(rightCount) : 0.0f;
         }
         Aabb left;
         std::uint32_t leftCount = 0;
-        for (int i = 0; i < kBins - 1; ++i) {
+        for (std::size_t i = 0; i < binCount - 1; ++i) {
             left.grow(bins[axis][i].bounds);
             leftCount += bins[axis][i].count;
             if (leftCount == 0 || leftCount == refs.size()) continue;
