@@ -42,6 +42,10 @@ int run(int argc, char** argv) {
         "duolux"};
     app.set_version_flag("--version",
                          fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
+    app.footer(
+        "BVHs of larger scenes are kept in $XDG_CACHE_HOME/duolux, by default ~/.cache/duolux, which never "
+        "takes "
+        "more than 1 GiB; DUOLUX_NO_CACHE=1 in the environment keeps and reads none.");
     app.require_subcommand(1);
     app.get_formatter()->column_width(36);
     app.get_formatter()->label("SUBCOMMAND", "COMMAND");

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/base/parallel.h"
-#include "host/bvh/wide_bvh.h"
+#include "host/bvh/tree_cache.h"
 #include "host/gpu/lights.h"
 #include "shaders/shared/bvh_layout.h"
 
@@ -60,7 +60,7 @@ struct Trees {
 };
 
 Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
-    WideBvh all = buildWideBvh(geometry);
+    WideBvh all = cachedWideBvh(geometry);
     Trees trees{std::move(all.nodes), std::move(all.triangles), {}, 0};
     std::vector<std::uint32_t> entryOf(geometry.triangles.size());
     trees.primitives.resize(trees.triangles.size());
@@ -69,7 +69,7 @@ Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitte
         entryOf[trees.triangles[i]] = i;
     }
     if (emitters.empty()) return trees;
-    const WideBvh second = buildWideBvh(geometry, emitters);
+    const WideBvh second = cachedWideBvh(geometry, emitters);
     trees.emitterRoot = static_cast<std::uint32_t>(trees.nodes.size());
     const auto firstTriangle = static_cast<std::uint32_t>(trees.triangles.size());
     for (shared::WideNode node : second.nodes) {

@@ -1,0 +1,104 @@
+#include "host/bvh/tree_cache.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "host/bvh/tree_file.h"
+
+namespace duolux {
+
+namespace fs = std::filesystem;
+
+std::optional<TreeCache> TreeCache::ofUser() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return fs::path(value != nullptr ? value : "");
+    };
+    if (!variable("DUOLUX_NO_CACHE").empty()) return {};
+    // Relative paths are to be ignored (XDG Base Directory Specification).
+    if (const fs::path caches = variable("XDG_CACHE_HOME"); caches.is_absolute())
+        return TreeCache(caches / "duolux");
+    if (const fs::path home = variable("HOME"); home.is_absolute())
+        return TreeCache(home / ".cache" / "duolux");
+    return {};
+}
+
+WideBvh TreeCache::tree(const Geometry& geometry, std::span<const std::uint32_t> triangles) const {
+    const TreeKey key = treeKey(geometry, triangles);
+    const fs::path path = folder_ / fmt::format("{:016x}{:016x}.tree", key[1], key[0]);
+    if (std::optional<WideBvh> kept = readTree(path, key, triangles)) {
+        std::error_code ignored;
+        fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+        return std::move(*kept);
+    }
+    WideBvh built = buildWideBvh(geometry, triangles);
+    keep(path, built, key);
+    return built;
+}
+
+void TreeCache::keep(const fs::path& path, const WideBvh& tree, const TreeKey& key) const {
+    if (treeFileBytes(tree) > mostBytes_) return;
+    std::error_code ignored;
+    fs::create_directories(folder_.parent_path(), ignored);
+    ::mkdir(folder_.c_str(), 0700);
+    std::string temporary = (folder_ / "new-XXXXXX").string();
+    const int file = ::mkstemp(temporary.data());
+    if (file < 0) return;
+    // Not waited for until it is on the disk: what a power failure leaves of it is built again.
+    const bool written = writeTree(file, tree, key);
+    if (::close(file) != 0 || !written || ::rename(temporary.c_str(), path.c_str()) != 0) {
+        ::unlink(temporary.c_str());
+        return;
+    }
+    makeRoom();
+}
+
+void TreeCache::makeRoom() const {
+    struct File {
+        fs::file_time_type used;
+        std::uint64_t bytes;
+        fs::path path;
+    };
+    std::vector<File> files;
+    std::uint64_t total = 0;
+    // Others may delete files meanwhile.
+    std::error_code error;
+    for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
+        std::error_code gone;
+        const std::uint64_t bytes = entry->is_regular_file(gone) ? entry->file_size(gone) : 0;
+        const fs::file_time_type used = entry->last_write_time(gone);
+        if (gone || bytes == 0) continue;
+        files.push_back({used, bytes, entry->path()});
+        total += bytes;
+    }
+    std::sort(files.begin(), files.end(), [](const File& a, const File& b) { return a.used < b.used; });
+    for (const File& file : files) {
+        if (total <= mostBytes_) return;
+        fs::remove(file.path, error);
+        total -= file.bytes;
+    }
+}
+
+WideBvh cachedWideBvh(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
+    if (triangles.size() >= TreeCache::kFewestTriangles) {
+        if (const std::optional<TreeCache> cache = TreeCache::ofUser())
+            return cache->tree(geometry, triangles);
+    }
+    return buildWideBvh(geometry, triangles);
+}
+
+WideBvh cachedWideBvh(const Geometry& geometry) {
+    std::vector<std::uint32_t> all(geometry.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return cachedWideBvh(geometry, all);
+}
+
+}  // namespace duolux

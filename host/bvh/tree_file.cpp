@@ -1,0 +1,192 @@
+#include "host/bvh/tree_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <type_traits>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace duolux {
+
+namespace {
+
+/// Of a file: then come the nodes, then the triangles.
+struct Header {
+    char magic[8];
+    TreeKey key;
+    std::uint64_t nodes, triangles;
+    double sahCost;
+    std::uint64_t depth;
+    TreeKey checksum;  ///< of the rest of the file
+};
+static_assert(sizeof(Header) == 72 && std::is_trivially_copyable_v<Header>);
+
+constexpr char kMagic[8] = {'D', 'u', 'o', 'l', 'u', 'x', 'T', '1'};
+
+/// XXH3 of 128 bits (Collet 2020): as fast as memory.
+class Hash {
+  public:
+    Hash() { XXH3_128bits_reset(&state_); }
+
+    template <typename T>
+    void add(std::span<const T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        XXH3_128bits_update(&state_, values.data(), values.size_bytes());
+    }
+
+    TreeKey result() const {
+        const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
+        return {hash.low64, hash.high64};
+    }
+
+  private:
+    XXH3_state_t state_;
+};
+
+TreeKey checksumOf(Header header, const WideBvh& tree) {
+    header.checksum = {};
+    Hash hash;
+    hash.add(std::span<const Header>(&header, 1));
+    hash.add(std::span<const shared::WideNode>(tree.nodes));
+    hash.add(std::span<const std::uint32_t>(tree.triangles));
+    return hash.result();
+}
+
+/// Calls read() or write() until all bytes have passed, or none will.
+template <typename Call, typename Byte>
+bool passAll(Call call, int file, Byte* bytes, std::size_t count) {
+    while (count > 0) {
+        const ssize_t passed = call(file, bytes, count);
+        if (passed < 0 && errno == EINTR) continue;
+        if (passed <= 0) return false;
+        bytes += passed;
+        count -= static_cast<std::size_t>(passed);
+    }
+    return true;
+}
+
+template <typename T>
+bool writeAll(int file, std::span<const T> values) {
+    return passAll(::write, file, reinterpret_cast<const char*>(values.data()), values.size_bytes());
+}
+
+template <typename T>
+bool readAll(int file, std::span<T> values) {
+    return passAll(::read, file, reinterpret_cast<char*>(values.data()), values.size_bytes());
+}
+
+/// Whether the leaves hold each of the triangles once.
+bool holdsJust(const WideBvh& tree, std::span<const std::uint32_t> triangles) {
+    const std::uint32_t most = *std::max_element(triangles.begin(), triangles.end());
+    std::vector<char> wanted(std::size_t{most} + 1, 0);
+    for (const std::uint32_t triangle : triangles)
+        wanted[triangle] = 1;
+    for (const std::uint32_t triangle : tree.triangles) {
+        if (triangle > most || wanted[triangle] == 0) return false;
+        wanted[triangle] = 0;
+    }
+    return tree.triangles.size() == triangles.size();
+}
+
+/// Whether a traversal ends, and stays within the arrays and its stack. Children come after their parents.
+bool isTree(const WideBvh& tree) {
+    const std::size_t nodes = tree.nodes.size();
+    std::vector<std::uint8_t> level(nodes, 0);
+    std::vector<char> entrySeen(tree.triangles.size(), 0);
+    level[0] = 1;
+    std::uint32_t deepest = 0;
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const shared::WideNode& node = tree.nodes[i];
+        if (level[i] == 0 || level[i] > shared::kMaxTreeDepth) return false;
+        deepest = std::max<std::uint32_t>(deepest, level[i]);
+        std::uint64_t child = node.childBase;
+        for (unsigned slot = 0; slot < 8; ++slot) {
+            const unsigned meta = node.meta[slot];
+            if ((node.innerMask >> slot & 1) != 0) {
+                if (meta != (shared::kMetaInner | (24 + slot))) return false;
+                if (child <= i || child >= nodes || level[child] != 0) return false;
+                level[child++] = static_cast<std::uint8_t>(level[i] + 1);
+                continue;
+            }
+            if (meta == 0) continue;
+            const unsigned unary = meta >> 5;
+            if (unary != 1 && unary != 3 && unary != 7) return false;
+            for (int k = 0; k < std::popcount(unary); ++k) {
+                const std::uint64_t entry =
+                    std::uint64_t{node.triangleBase} + (meta & 31) + static_cast<unsigned>(k);
+                if (entry >= entrySeen.size() || entrySeen[entry] != 0) return false;
+                entrySeen[entry] = 1;
+            }
+        }
+    }
+    return deepest == tree.depth && std::find(entrySeen.begin(), entrySeen.end(), 0) == entrySeen.end();
+}
+
+/// A file that is closed at the end of its scope.
+struct OpenFile {
+    int descriptor;
+    ~OpenFile() {
+        if (descriptor >= 0) ::close(descriptor);
+    }
+};
+
+}  // namespace
+
+TreeKey treeKey(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
+    const std::uint64_t sizes[] = {geometry.positions.size(), geometry.triangles.size(), triangles.size()};
+    Hash hash;
+    hash.add(std::span<const char>(DUOLUX_TREE_BUILDER, sizeof(DUOLUX_TREE_BUILDER)));
+    hash.add(std::span<const std::uint64_t>(sizes));
+    hash.add(std::span<const glm::vec3>(geometry.positions));
+    hash.add(std::span<const glm::uvec3>(geometry.triangles));
+    hash.add(triangles);
+    return hash.result();
+}
+
+std::uint64_t treeFileBytes(const WideBvh& tree) {
+    return sizeof(Header) + std::span(tree.nodes).size_bytes() + std::span(tree.triangles).size_bytes();
+}
+
+bool writeTree(int file, const WideBvh& tree, const TreeKey& key) {
+    Header header{{}, key, tree.nodes.size(), tree.triangles.size(), tree.sahCost, tree.depth, {}};
+    std::memcpy(header.magic, kMagic, sizeof(kMagic));
+    header.checksum = checksumOf(header, tree);
+    return writeAll(file, std::span<const Header>(&header, 1)) &&
+           writeAll(file, std::span<const shared::WideNode>(tree.nodes)) &&
+           writeAll(file, std::span<const std::uint32_t>(tree.triangles));
+}
+
+std::optional<WideBvh> readTree(const std::filesystem::path& path, const TreeKey& key,
+                                std::span<const std::uint32_t> triangles) {
+    // What is no file must not keep this waiting.
+    const OpenFile file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    struct stat status {};
+    if (file.descriptor < 0 || ::fstat(file.descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return {};
+    Header header{};
+    if (!readAll(file.descriptor, std::span<Header>(&header, 1))) return {};
+    if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0 || header.key != key) return {};
+    if (header.triangles != triangles.size() || header.nodes == 0 || header.nodes > triangles.size())
+        return {};
+    WideBvh tree;
+    tree.depth = static_cast<std::uint32_t>(header.depth);
+    tree.sahCost = header.sahCost;
+    const std::uint64_t bytes =
+        sizeof(Header) + header.nodes * sizeof(shared::WideNode) + header.triangles * sizeof(std::uint32_t);
+    if (static_cast<std::uint64_t>(status.st_size) != bytes) return {};
+    tree.nodes.resize(header.nodes);
+    tree.triangles.resize(header.triangles);
+    if (!readAll(file.descriptor, std::span(tree.nodes)) ||
+        !readAll(file.descriptor, std::span(tree.triangles)) || checksumOf(header, tree) != header.checksum ||
+        !holdsJust(tree, triangles) || !isTree(tree))
+        return {};
+    return tree;
+}
+
+}  // namespace duolux

@@ -1,0 +1,377 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <thread>
+
+#include "host/base/file.h"
+#include "host/base/temporary_folder.h"
+#include "host/bvh/tree_cache.h"
+#include "host/bvh/tree_file.h"
+#include "host/scene/icosphere.h"
+
+namespace duolux {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::IsEmpty;
+
+Geometry sphere(std::uint32_t frequency) {
+    const Icosphere icosphere = makeIcosphere(frequency);
+    Geometry geometry;
+    geometry.positions.assign(icosphere.positions.begin(), icosphere.positions.end());
+    geometry.triangles = icosphere.triangles;
+    return geometry;
+}
+
+std::vector<std::uint32_t> allOf(const Geometry& geometry) {
+    std::vector<std::uint32_t> all(geometry.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
+void expectSame(const WideBvh& a, const WideBvh& b) {
+    ASSERT_EQ(a.nodes.size(), b.nodes.size());
+    EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), std::span(a.nodes).size_bytes()), 0);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.depth, b.depth);
+    EXPECT_EQ(a.sahCost, b.sahCost);
+}
+
+class TreeCacheTest : public testing::Test {
+  protected:
+    WideBvh get(std::uint64_t mostBytes = TreeCache::kMostBytes) const {
+        return TreeCache(cache_, mostBytes).tree(geometry_, triangles_);
+    }
+
+    std::vector<fs::path> files() const {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(cache_))
+            found.push_back(entry.path());
+        return found;
+    }
+
+    /// A file that holds another tree than this geometry has shows whether it is read.
+    void keepInstead(const WideBvh& tree, const fs::path& path) const {
+        const int file = ::open(path.c_str(), O_WRONLY | O_TRUNC);
+        ASSERT_TRUE(writeTree(file, tree, treeKey(geometry_, triangles_)));
+        ::close(file);
+    }
+
+    /// Whether a tree is good enough to be returned, and that a bad one's file is replaced.
+    bool accepted(const WideBvh& tree) const {
+        get();
+        const fs::path path = files().at(0);
+        keepInstead(tree, path);
+        const bool read = readTree(path, treeKey(geometry_, triangles_), triangles_).has_value();
+        if (!read) {
+            expectSame(get(), built_);
+            EXPECT_TRUE(readTree(path, treeKey(geometry_, triangles_), triangles_).has_value());
+        }
+        return read;
+    }
+
+    TemporaryFolder folder_;
+    fs::path cache_ = folder_ / "a" / "duolux";
+    Geometry geometry_ = sphere(8);
+    std::vector<std::uint32_t> triangles_ = allOf(geometry_);
+    WideBvh built_ = buildWideBvh(geometry_, triangles_);
+};
+
+TEST_F(TreeCacheTest, KeepsWhatTheBuilderBuilds) {
+    expectSame(get(), built_);
+    ASSERT_EQ(files().size(), 1u);
+    EXPECT_EQ(fs::file_size(files()[0]), treeFileBytes(built_));
+    expectSame(get(), built_);
+    // It is the file that is read.
+    WideBvh other = built_;
+    other.nodes[0].upper[0][0] ^= 1;
+    keepInstead(other, files()[0]);
+    expectSame(get(), other);
+    // Nobody else sees it.
+    EXPECT_EQ(fs::status(cache_).permissions(), fs::perms::owner_all);
+}
+
+TEST_F(TreeCacheTest, TellsContentsApart) {
+    const TreeKey key = treeKey(geometry_, triangles_);
+    EXPECT_EQ(treeKey(geometry_, triangles_), key);
+    Geometry moved = geometry_;
+    moved.positions.back().z = std::nextafter(moved.positions.back().z, 2.0f);
+    EXPECT_NE(treeKey(moved, triangles_), key);
+    Geometry turned = geometry_;
+    std::swap(turned.triangles[7].x, turned.triangles[7].y);
+    EXPECT_NE(treeKey(turned, triangles_), key);
+    const std::span<const std::uint32_t> all(triangles_);
+    EXPECT_NE(treeKey(geometry_, all.first(10)), key);
+    EXPECT_NE(treeKey(geometry_, all.first(10)), treeKey(geometry_, all.last(10)));
+    // Materials are no part of a tree.
+    Geometry painted = geometry_;
+    painted.materials.assign(painted.triangles.size(), 3);
+    EXPECT_EQ(treeKey(painted, triangles_), key);
+    get();
+    expectSame(TreeCache(cache_).tree(moved, triangles_), buildWideBvh(moved, triangles_));
+    EXPECT_EQ(files().size(), 2u);
+}
+
+TEST_F(TreeCacheTest, HoldsTreesOverASubset) {
+    triangles_ = {3, 5, 8, 13, 21, 34, 55, 89, 144, 1279};
+    const WideBvh built = buildWideBvh(geometry_, triangles_);
+    expectSame(get(), built);
+    expectSame(get(), built);
+    EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(TreeCacheTest, BuildsAgainWhatIsCorrupt) {
+    get();
+    const fs::path path = files().at(0);
+    const std::string good = readFile(path);
+    const TreeKey key = treeKey(geometry_, triangles_);
+    const auto replaced = [&](const std::string& bytes) {
+        writeFile(path, bytes);
+        EXPECT_FALSE(readTree(path, key, triangles_).has_value());
+        expectSame(get(), built_);
+        EXPECT_EQ(readFile(path), good);
+    };
+    for (std::size_t at = 0; at < good.size(); at += at < 80 ? 1 : 97) {
+        SCOPED_TRACE(at);
+        std::string bytes = good;
+        bytes[at] = static_cast<char>(bytes[at] ^ 1 << at % 8);
+        replaced(bytes);
+    }
+    for (const std::size_t size : {std::size_t{0}, std::size_t{71}, std::size_t{72}, good.size() - 1})
+        replaced(good.substr(0, size));
+    replaced(good + "x");
+    // Another scene's tree.
+    const Geometry other = sphere(9);
+    const std::vector<std::uint32_t> all = allOf(other);
+    TreeCache(folder_ / "other").tree(other, all);
+    replaced(readFile(fs::directory_iterator(folder_ / "other")->path()));
+}
+
+/// With a checksum that fits.
+TEST_F(TreeCacheTest, ReturnsNoTreeThatLeadsATraversalAstray) {
+    ASSERT_TRUE(accepted(built_));
+    const auto refused = [&](const auto& change) {
+        WideBvh tree = built_;
+        change(tree);
+        return !accepted(tree);
+    };
+    const auto slotOf = [&](const shared::WideNode& node, bool inner) {
+        for (std::size_t slot = 0; slot < 8; ++slot) {
+            if (node.meta[slot] != 0 && ((node.innerMask >> slot & 1) != 0) == inner) return slot;
+        }
+        ADD_FAILURE() << "no such child";
+        return std::size_t{0};
+    };
+    const auto last = static_cast<std::uint32_t>(built_.nodes.size() - 1);
+    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles[3] = 0xffffffffu; })) << "out of range";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles[3] = 1280; })) << "one too far";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles[3] = t.triangles[4]; })) << "twice";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.nodes[0].childBase = 0; })) << "a cycle";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.nodes[0].childBase += 1; })) << "another child";
+    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[0].childBase = last; })) << "children past the end";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.nodes[0].childBase = 0xfffffffcu; })) << "children that wrap";
+    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[last].triangleBase += 1; })) << "another leaf's triangle";
+    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[last].triangleBase = 0xffffffffu; }))
+        << "a leaf past the end";
+    EXPECT_TRUE(refused([&](WideBvh& t) {
+        auto& meta = t.nodes[last].meta[slotOf(t.nodes[last], false)];
+        meta = static_cast<std::uint8_t>((meta & 31) | 5 << 5);
+    })) << "a count that is none";
+    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[0].meta[slotOf(t.nodes[0], true)] ^= 1; }))
+        << "another slot";
+    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[0].meta[slotOf(t.nodes[0], true)] = 0; })) << "no child";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.depth += 1; })) << "another depth";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.nodes.push_back({}); })) << "a node that nothing leads to";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles.pop_back(); })) << "a triangle less";
+}
+
+/// The stack of a traversal has a place for each level.
+TEST_F(TreeCacheTest, ReturnsNoTreeThatIsTooDeep) {
+    for (const std::uint32_t depth : {shared::kMaxTreeDepth + 1, shared::kMaxTreeDepth}) {
+        triangles_.resize(2 * depth);
+        built_ = buildWideBvh(geometry_, triangles_);
+        WideBvh chain{std::vector<shared::WideNode>(depth), triangles_, depth, 1.0};
+        for (std::uint32_t i = 0; i < depth; ++i) {
+            shared::WideNode& node = chain.nodes[i];
+            node.triangleBase = 2 * i;
+            node.meta[1] = 3 << 5;
+            if (i + 1 == depth) continue;
+            node.innerMask = 1;
+            node.meta[0] = shared::kMetaInner | 24;
+            node.childBase = i + 1;
+        }
+        fs::remove_all(cache_);
+        EXPECT_EQ(accepted(chain), depth == shared::kMaxTreeDepth);
+    }
+}
+
+TEST_F(TreeCacheTest, DoesWithoutAFolderThatCannotBeUsed) {
+    writeFile(folder_ / "a", "a file where the folder should be");
+    expectSame(get(), built_);
+    cache_ = "/proc/duolux";
+    expectSame(get(), built_);
+    cache_ = "/dev/full/duolux";
+    expectSame(get(), built_);
+}
+
+TEST_F(TreeCacheTest, DoesWithoutAFolderThatIsReadOnly) {
+    fs::create_directories(cache_);
+    fs::permissions(cache_, fs::perms::owner_read | fs::perms::owner_exec);
+    // To root nothing is read-only.
+    const pid_t child = ::fork();
+    if (child == 0) {
+        if (::geteuid() == 0 && (::chmod(folder_.path().c_str(), 0755) != 0 || ::seteuid(65534) != 0))
+            ::_exit(2);
+        const WideBvh tree = get();
+        ::_exit(tree.triangles == built_.triangles ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    fs::permissions(cache_, fs::perms::owner_all);
+    EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(TreeCacheTest, LeavesNothingOfAFileThatDidNotFit) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const rlimit small{1000, 1000};
+        ::signal(SIGXFSZ, SIG_IGN);
+        if (::setrlimit(RLIMIT_FSIZE, &small) != 0) ::_exit(2);
+        ::_exit(get().triangles == built_.triangles ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(TreeCacheTest, DeletesWhatWasNotUsedForLongest) {
+    std::vector<Geometry> geometries;
+    for (const float x : {0.0f, 1.0f, 2.0f, 3.0f}) {
+        geometries.push_back(geometry_);
+        for (glm::vec3& p : geometries.back().positions)
+            p.x += x;
+    }
+    const TreeCache cache(cache_, 3 * treeFileBytes(built_) + treeFileBytes(built_) / 2);
+    const auto ask = [&](std::size_t i) {
+        cache.tree(geometries[i], triangles_);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // file systems' clocks may be coarse
+    };
+    const auto kept = [&](std::size_t i) {
+        const TreeKey key = treeKey(geometries[i], triangles_);
+        for (const fs::path& file : files()) {
+            if (readTree(file, key, triangles_)) return true;
+        }
+        return false;
+    };
+    for (const std::size_t i : {0, 1, 2, 0})
+        ask(i);
+    EXPECT_EQ(files().size(), 3u);
+    ask(3);
+    EXPECT_EQ(files().size(), 3u);
+    EXPECT_TRUE(kept(0));
+    EXPECT_FALSE(kept(1));
+    EXPECT_TRUE(kept(2));
+    EXPECT_TRUE(kept(3));
+}
+
+TEST_F(TreeCacheTest, KeepsNothingLargerThanAllMayBe) {
+    expectSame(get(treeFileBytes(built_) - 1), built_);
+    EXPECT_FALSE(fs::exists(cache_));
+}
+
+TEST_F(TreeCacheTest, IsSharedByProcesses) {
+    // With room for one of the two trees: each writes, reads and deletes under the other's hands.
+    const Geometry other = sphere(7);
+    const std::vector<std::uint32_t> all = allOf(other);
+    const WideBvh otherBuilt = buildWideBvh(other, all);
+    const TreeCache cache(cache_, treeFileBytes(built_) + 100);
+    std::vector<pid_t> children;
+    for (int process = 0; process < 4; ++process) {
+        children.push_back(::fork());
+        if (children.back() != 0) continue;
+        for (int i = 0; i < 50; ++i) {
+            if (cache.tree(geometry_, triangles_).triangles != built_.triangles) ::_exit(1);
+            if (cache.tree(other, all).triangles != otherBuilt.triangles) ::_exit(1);
+        }
+        ::_exit(0);
+    }
+    for (const pid_t child : children) {
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        EXPECT_EQ(status, 0);
+    }
+    for (const fs::path& file : files())
+        EXPECT_EQ(file.extension(), ".tree");
+}
+
+/// Where the user's trees are.
+class UserCache : public TreeCacheTest {
+  protected:
+    UserCache() {
+        geometry_ = sphere(58);  // 67,280 triangles: enough to be kept
+        triangles_ = allOf(geometry_);
+        for (const char* name : {"XDG_CACHE_HOME", "HOME", "DUOLUX_NO_CACHE"}) {
+            const char* value = std::getenv(name);
+            if (value != nullptr) before_[name] = value;
+            ::unsetenv(name);
+        }
+    }
+    ~UserCache() override {
+        for (const char* name : {"XDG_CACHE_HOME", "HOME", "DUOLUX_NO_CACHE"}) {
+            ::unsetenv(name);
+            if (before_.contains(name)) ::setenv(name, before_[name].c_str(), 1);
+        }
+    }
+    std::size_t filesIn(const fs::path& folder) const {
+        return fs::exists(folder)
+                   ? static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}))
+                   : 0;
+    }
+
+  private:
+    std::map<std::string, std::string> before_;
+};
+
+TEST_F(UserCache, IsBelowXdgCacheHomeOrHome) {
+    EXPECT_FALSE(TreeCache::ofUser().has_value());
+    ::setenv("HOME", (folder_ / "home").c_str(), 1);
+    ::setenv("XDG_CACHE_HOME", "relative", 1);
+    const WideBvh built = cachedWideBvh(geometry_);
+    EXPECT_EQ(filesIn(folder_ / "home/.cache/duolux"), 1u);
+    ::setenv("XDG_CACHE_HOME", (folder_ / "xdg").c_str(), 1);
+    expectSame(cachedWideBvh(geometry_), built);
+    EXPECT_EQ(filesIn(folder_ / "xdg/duolux"), 1u);
+    expectSame(cachedWideBvh(geometry_), built);
+    EXPECT_EQ(filesIn(folder_ / "xdg/duolux"), 1u);
+}
+
+TEST_F(UserCache, CanBeTurnedOff) {
+    ::setenv("XDG_CACHE_HOME", (folder_ / "xdg").c_str(), 1);
+    ::setenv("DUOLUX_NO_CACHE", "1", 1);
+    cachedWideBvh(geometry_);
+    EXPECT_EQ(filesIn(folder_ / "xdg"), 0u);
+}
+
+TEST_F(UserCache, HasNoTreesOfSmallScenes) {
+    ::setenv("XDG_CACHE_HOME", (folder_ / "xdg").c_str(), 1);
+    triangles_.resize(TreeCache::kFewestTriangles - 1);
+    cachedWideBvh(geometry_, triangles_);
+    EXPECT_EQ(filesIn(folder_ / "xdg"), 0u);
+}
+
+}  // namespace
+}  // namespace duolux
