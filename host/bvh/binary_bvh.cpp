@@ -1,9 +1,11 @@
 #include "host/bvh/binary_bvh.h"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cassert>
 #include <condition_variable>
+#include <cstddef>
+#include <cstring>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -15,31 +17,62 @@ namespace duolux {
 namespace {
 
 constexpr std::size_t kMostBins = 256;
-constexpr std::uint32_t kMostSwept = 16;
+constexpr std::size_t kMostSwept = 16;              // primitives; with more, bins are faster
 constexpr std::uint32_t kParallelThreshold = 8192;  // smaller subtrees are built by one thread
 
-struct Task {
-    std::uint32_t node, begin, end;
+// Most of the time goes into minima and maxima, which processors find of four floats as fast as of one: x, y,
+// z, and a zero that does not count.
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+
+struct Box4 {
+    Float4 lower{1e30f, 1e30f, 1e30f, 1e30f}, upper{-1e30f, -1e30f, -1e30f, -1e30f};
+
+    void grow(const Box4& other) {
+        lower = other.lower < lower ? other.lower : lower;
+        upper = other.upper > upper ? other.upper : upper;
+    }
+    float halfArea() const {
+        const Float4 d = upper - lower;
+        return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+    }
+    Aabb aabb() const { return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}; }
 };
 
-glm::vec3 twiceCentre(const PrimitiveRef& ref) {
-    return ref.lower + ref.upper;
+Box4 boxOf(const PrimitiveRef& ref) {
+    static_assert(sizeof(PrimitiveRef) == sizeof(Box4) && offsetof(PrimitiveRef, upper) == sizeof(Float4));
+    // A primitive's number taken for a float would be a denormal one, with which processors are slow.
+    Int4 lower;
+    Float4 upper;
+    std::memcpy(&lower, &ref, sizeof lower);
+    std::memcpy(&upper, reinterpret_cast<const char*>(&ref) + sizeof lower, sizeof upper);
+    lower &= Int4{-1, -1, -1, 0};
+    Box4 box;
+    std::memcpy(&box.lower, &lower, sizeof lower);
+    box.upper = upper;
+    return box;
 }
 
-Aabb boxOf(const PrimitiveRef& ref) {
-    return {ref.lower, ref.upper};
+Float4 twiceCentre(const Box4& box) {
+    return box.lower + box.upper;
 }
 
 struct Extent {
-    Aabb bounds;   // of the primitives
-    Aabb centres;  // of twice their centres
+    Box4 bounds;   // of the primitives
+    Box4 centres;  // of twice their centres
+};
+
+struct Task {
+    std::uint32_t node, begin, end;
+    Extent extent;
 };
 
 Extent extentOf(std::span<const PrimitiveRef> refs) {
     Extent extent;
     for (const PrimitiveRef& ref : refs) {
-        extent.bounds.grow(boxOf(ref));
-        const glm::vec3 centre = twiceCentre(ref);
+        const Box4 box = boxOf(ref);
+        extent.bounds.grow(box);
+        const Float4 centre = twiceCentre(box);
         extent.centres.grow({centre, centre});
     }
     return extent;
@@ -48,73 +81,84 @@ Extent extentOf(std::span<const PrimitiveRef> refs) {
 /// Partitions at the best of all splits between two different centres (MacDonald, Booth, "Heuristics for Ray
 /// Tracing Using Space Subdivision", 1990); for few primitives. Returns the size of the left part, 0 if the
 /// centres are all the same.
-std::uint32_t splitByFullSweep(std::span<PrimitiveRef> refs) {
-    struct Place {
-        float centre;
-        std::uint32_t ref;
-    };
-    const auto count = static_cast<std::uint32_t>(refs.size());
+std::uint32_t splitBySweep(std::span<PrimitiveRef> refs) {
+    const std::size_t count = refs.size();
+    std::array<Box4, kMostSwept> boxes;
+    for (std::size_t i = 0; i < count; ++i)
+        boxes[i] = boxOf(refs[i]);
     float bestCost = std::numeric_limits<float>::max();
-    int bestAxis = -1;
-    float bestCentre = 0.0f;  // the last one of the left part
+    std::size_t leftCount = 0;
+    std::array<std::size_t, kMostSwept> bestOrder;
     for (int axis = 0; axis < 3; ++axis) {
-        Place places[kMostSwept];
-        for (std::uint32_t i = 0; i < count; ++i)
-            places[i] = {refs[i].lower[axis] + refs[i].upper[axis], i};
-        std::sort(places, places + count, [](const Place& a, const Place& b) { return a.centre < b.centre; });
-        float rightCost[kMostSwept];
-        Aabb right;
-        for (std::uint32_t i = count; --i > 0;) {
-            right.grow(boxOf(refs[places[i].ref]));
+        std::array<float, kMostSwept> centre;
+        std::array<std::size_t, kMostSwept> order;
+        for (std::size_t i = 0; i < count; ++i) {  // sorts by insertion
+            const float c = twiceCentre(boxes[i])[axis];
+            std::size_t at = i;
+            for (; at > 0 && centre[at - 1] > c; --at) {
+                centre[at] = centre[at - 1];
+                order[at] = order[at - 1];
+            }
+            centre[at] = c;
+            order[at] = i;
+        }
+        std::array<float, kMostSwept> rightCost;
+        Box4 right;
+        for (std::size_t i = count; --i > 0;) {
+            right.grow(boxes[order[i]]);
             rightCost[i] = right.halfArea() * static_cast<float>(count - i);
         }
-        Aabb left;
-        for (std::uint32_t i = 1; i < count; ++i) {
-            left.grow(boxOf(refs[places[i - 1].ref]));
-            if (places[i - 1].centre == places[i].centre) continue;
+        Box4 left;
+        const float costBefore = bestCost;
+        for (std::size_t i = 1; i < count; ++i) {
+            left.grow(boxes[order[i - 1]]);
             const float cost = left.halfArea() * static_cast<float>(i) + rightCost[i];
-            if (cost < bestCost) {
-                bestCost = cost;
-                bestAxis = axis;
-                bestCentre = places[i - 1].centre;
-            }
+            if (!(cost < bestCost) || centre[i - 1] == centre[i]) continue;
+            bestCost = cost;
+            leftCount = i;
         }
+        if (bestCost < costBefore) bestOrder = order;
     }
-    if (bestAxis < 0) return 0;
-    const auto middle = std::partition(refs.begin(), refs.end(), [&](const PrimitiveRef& ref) {
-        return ref.lower[bestAxis] + ref.upper[bestAxis] <= bestCentre;
-    });
-    return static_cast<std::uint32_t>(middle - refs.begin());
+    if (leftCount == 0) return 0;
+    std::array<PrimitiveRef, kMostSwept> sorted;
+    for (std::size_t i = 0; i < count; ++i)
+        sorted[i] = refs[bestOrder[i]];
+    std::copy_n(sorted.begin(), count, refs.begin());
+    return static_cast<std::uint32_t>(leftCount);
 }
 
-/// Partitions by SAH, in bins where there are many primitives; returns the size of the left part, 0 if the
-/// centres cannot be told apart.
-std::uint32_t splitBySah(std::span<PrimitiveRef> refs, const Aabb& centres) {
-    if (refs.size() <= kMostSwept) return splitByFullSweep(refs);
-    struct Bin {
-        Aabb bounds;
-        std::uint32_t count;
-    };
+/// Two parts of primitives.
+struct Split {
+    std::uint32_t leftCount = 0;
+    Extent left, right;
+};
+
+/// Partitions by binned SAH; an empty left part if the centres cannot be told apart.
+Split splitByBins(std::span<PrimitiveRef> refs, const Box4& centres) {
     // So many that looking through them takes a small part of the time that filling them takes.
     const std::size_t binCount = std::min(32 + refs.size() / 16, kMostBins);
-    const glm::vec3 size = centres.upper - centres.lower;
-    glm::vec3 scale;
+    const Float4 size = centres.upper - centres.lower;
+    Float4 scale{};
     for (int axis = 0; axis < 3; ++axis) {
         scale[axis] = size[axis] > 0.0f ? static_cast<float>(binCount) * 0.9999f / size[axis] : 0.0f;
         if (!(scale[axis] < 1e30f)) scale[axis] = 0.0f;  // an extent so small that its inverse overflows
     }
-    auto binOf = [&](const PrimitiveRef& ref, int axis) {
-        const float x = (ref.lower[axis] + ref.upper[axis] - centres.lower[axis]) * scale[axis];
-        return std::min(static_cast<std::size_t>(x), binCount - 1);
+    const auto binsOf = [&](const Float4& centre) {
+        return __builtin_convertvector((centre - centres.lower) * scale, Int4);
     };
 
+    struct Bin {
+        Box4 bounds;
+        std::uint32_t count;
+    };
     Bin bins[3][kMostBins];
     for (auto& ofAxis : bins)
         std::fill_n(ofAxis, binCount, Bin{{}, 0});
     for (const PrimitiveRef& ref : refs) {
-        const Aabb box = boxOf(ref);
+        const Box4 box = boxOf(ref);
+        const Int4 index = binsOf(twiceCentre(box));
         for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin = bins[axis][binOf(ref, axis)];
+            Bin& bin = bins[axis][index[axis]];
             bin.bounds.grow(box);
             ++bin.count;
         }
@@ -123,17 +167,18 @@ std::uint32_t splitBySah(std::span<PrimitiveRef> refs, const Aabb& centres) {
     float bestCost = std::numeric_limits<float>::max();
     int bestAxis = -1;
     std::size_t bestBin = 0;
+    Split split;
     for (int axis = 0; axis < 3; ++axis) {
         if (scale[axis] == 0.0f) continue;
         float rightCost[kMostBins];
-        Aabb right;
+        Box4 right;
         std::uint32_t rightCount = 0;
         for (std::size_t i = binCount - 1; i > 0; --i) {
             right.grow(bins[axis][i].bounds);
             rightCount += bins[axis][i].count;
             rightCost[i] = rightCount > 0 ? right.halfArea() * static_cast<float>(rightCount) : 0.0f;
         }
-        Aabb left;
+        Box4 left;
         std::uint32_t leftCount = 0;
         for (std::size_t i = 0; i < binCount - 1; ++i) {
             left.grow(bins[axis][i].bounds);
@@ -144,18 +189,27 @@ std::uint32_t splitBySah(std::span<PrimitiveRef> refs, const Aabb& centres) {
                 bestCost = cost;
                 bestAxis = axis;
                 bestBin = i;
+                split.leftCount = leftCount;
+                split.left.bounds = left;
             }
         }
     }
-    if (bestAxis < 0) return 0;
-    const auto middle = std::partition(
-        refs.begin(), refs.end(), [&](const PrimitiveRef& ref) { return binOf(ref, bestAxis) <= bestBin; });
-    return static_cast<std::uint32_t>(middle - refs.begin());
+    if (bestAxis < 0) return split;
+    for (std::size_t i = bestBin + 1; i < binCount; ++i)
+        split.right.bounds.grow(bins[bestAxis][i].bounds);
+    const auto goesLeft = [&](const PrimitiveRef& ref) {
+        const Float4 centre = twiceCentre(boxOf(ref));
+        const bool left = binsOf(centre)[bestAxis] <= static_cast<int>(bestBin);
+        (left ? split.left : split.right).centres.grow({centre, centre});
+        return left;
+    };
+    std::partition(refs.begin(), refs.end(), goesLeft);
+    return split;
 }
 
-std::uint32_t splitByMedian(std::span<PrimitiveRef> refs, const Aabb& centres) {
-    const glm::vec3 size = centres.upper - centres.lower;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+Split splitByMedian(std::span<PrimitiveRef> refs, const Box4& centres) {
+    const Float4 size = centres.upper - centres.lower;
+    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : (size[1] >= size[2] ? 1 : 2);
     const std::uint32_t half = static_cast<std::uint32_t>(refs.size() / 2);
     std::nth_element(refs.begin(), refs.begin() + half, refs.end(),
                      [&](const PrimitiveRef& a, const PrimitiveRef& b) {
@@ -163,7 +217,7 @@ std::uint32_t splitByMedian(std::span<PrimitiveRef> refs, const Aabb& centres) {
                          const float cb = b.lower[axis] + b.upper[axis];
                          return ca != cb ? ca < cb : a.primitive < b.primitive;
                      });
-    return half;
+    return {half, extentOf(refs.first(half)), extentOf(refs.subspan(half))};
 }
 
 class Builder {
@@ -173,7 +227,7 @@ class Builder {
     }
 
     BinaryBvh build() {
-        tasks_.push_back({0, 0, static_cast<std::uint32_t>(refs_.size())});
+        tasks_.push_back({0, 0, static_cast<std::uint32_t>(refs_.size()), extentOf(refs_)});
         std::vector<std::jthread> pool;
         const bool parallel = refs_.size() > kParallelThreshold;
         for (unsigned i = 1; parallel && i < workerCount(); ++i)
@@ -211,37 +265,49 @@ class Builder {
         }
     }
 
-    void subtree(Task root) {
+    void subtree(const Task& root) {
         std::vector<Task> stack{root};
         while (!stack.empty()) {
             const Task task = stack.back();
             stack.pop_back();
-            const std::uint32_t count = task.end - task.begin;
-            const std::span<PrimitiveRef> refs = refs_.subspan(task.begin, count);
-            const Extent extent = extentOf(refs);
-            BinaryBvh::Node& node = bvh_.nodes[task.node];
-            node.bounds = extent.bounds;
-            node.count = count;
-            if (count == 1) {
-                node.right = refs[0].primitive;
+            const std::span<PrimitiveRef> refs = refs_.subspan(task.begin, task.end - task.begin);
+            if (method_ == SplitMethod::kBinnedSah && refs.size() <= kMostSwept) {
+                sweep(task.node, refs, task.extent.bounds);
                 continue;
             }
-            std::uint32_t leftCount =
-                method_ == SplitMethod::kBinnedSah ? splitBySah(refs, extent.centres) : 0;
-            if (leftCount == 0) leftCount = splitByMedian(refs, extent.centres);
-            node.right = task.node + 2 * leftCount;
-            const Task left{task.node + 1, task.begin, task.begin + leftCount};
-            const Task right{node.right, task.begin + leftCount, task.end};
-            for (const Task& child : {right, left}) {
-                if (child.end - child.begin > kParallelThreshold) {
+            BinaryBvh::Node& node = bvh_.nodes[task.node];
+            node = {task.extent.bounds.aabb(), static_cast<std::uint32_t>(refs.size()), refs[0].primitive};
+            if (refs.size() == 1) continue;
+            Split split;
+            if (method_ == SplitMethod::kBinnedSah) split = splitByBins(refs, task.extent.centres);
+            if (split.leftCount == 0) split = splitByMedian(refs, task.extent.centres);
+            const std::uint32_t middle = task.begin + split.leftCount;
+            node.right = task.node + 2 * split.leftCount;
+            const Task left{task.node + 1, task.begin, middle, split.left};
+            const Task right{node.right, middle, task.end, split.right};
+            for (const Task* child : {&right, &left}) {
+                if (child->end - child->begin > kParallelThreshold) {
                     std::lock_guard lock(mutex_);
-                    tasks_.push_back(child);
+                    tasks_.push_back(*child);
                     wake_.notify_one();
                 } else {
-                    stack.push_back(child);
+                    stack.push_back(*child);
                 }
             }
         }
+    }
+
+    void sweep(std::uint32_t index, std::span<PrimitiveRef> refs, const Box4& bounds) {
+        const auto count = static_cast<std::uint32_t>(refs.size());
+        BinaryBvh::Node& node = bvh_.nodes[index];
+        node = {bounds.aabb(), count, refs[0].primitive};
+        if (count == 1) return;
+        std::uint32_t leftCount = count > 2 ? splitBySweep(refs) : 1;
+        if (leftCount == 0) leftCount = count / 2;
+        const std::span<PrimitiveRef> left = refs.first(leftCount), right = refs.subspan(leftCount);
+        node.right = index + 2 * leftCount;
+        sweep(index + 1, left, extentOf(left).bounds);
+        sweep(node.right, right, extentOf(right).bounds);
     }
 
     std::span<PrimitiveRef> refs_;
