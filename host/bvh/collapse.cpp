@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cassert>
 
+#include "host/base/parallel.h"
 #include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
 
 namespace {
+
+constexpr std::uint32_t kSmallSubtree = 8192;  // primitives: computed by one thread
 
 /// Without the overflow that single precision has for boxes larger than 10^19.
 double halfAreaInDouble(const Aabb& box) {
@@ -20,14 +23,28 @@ double halfAreaInDouble(const Aabb& box) {
 CollapsePlan::CollapsePlan(const BinaryBvh& bvh) : bvh_(bvh), recordOf_(bvh.nodes.size()) {
     const double rootArea = halfAreaInDouble(bvh.nodes[0].bounds);
     inverseRootArea_ = rootArea > 0.0 ? 1.0 / rootArea : 0.0;
-    std::uint32_t inner = 0;
-    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
-        recordOf_[i] = bvh.nodes[i].count > 1 ? inner++ : 0;
-    records_.resize(inner);
-    // Children come after their parent, so backwards is bottom-up.
-    for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
-        if (bvh.nodes[i].count > 1) compute(static_cast<std::uint32_t>(i));
+    records_.resize(bvh.nodes[0].count - 1);
+    // Small subtrees on all cores, then what is above them.
+    std::vector<std::uint32_t> above, small, firstRecord;
+    std::uint32_t records = 0;
+    for (std::uint32_t i = 0; i < bvh.nodes.size();) {
+        const std::uint32_t count = bvh.nodes[i].count;
+        if (count > kSmallSubtree) {
+            recordOf_[i] = records++;
+            above.push_back(i++);
+        } else {
+            small.push_back(i);
+            firstRecord.push_back(records);
+            records += count - 1;
+            i += 2 * count - 1;
+        }
     }
+    parallelFor(small.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            computeSubtree(small[i], firstRecord[i]);
+    });
+    for (std::size_t i = above.size(); i-- > 0;)
+        compute(above[i]);
     sahCost_ = static_cast<double>(cost(0, 1));
 }
 
@@ -39,6 +56,16 @@ float CollapsePlan::cost(std::uint32_t node, int trees) const {
     const BinaryBvh::Node& n = bvh_.nodes[node];
     if (n.count == 1) return relativeArea(n) * kTriangleCost;
     return records_[recordOf_[node]].cost[static_cast<std::size_t>(trees - 1)];
+}
+
+void CollapsePlan::computeSubtree(std::uint32_t root, std::uint32_t firstRecord) {
+    const std::uint32_t end = root + 2 * bvh_.nodes[root].count - 1;
+    for (std::uint32_t i = root; i < end; ++i)
+        recordOf_[i] = bvh_.nodes[i].count > 1 ? firstRecord++ : 0;
+    // Children come after their parent, so backwards is bottom-up.
+    for (std::uint32_t i = end; i-- > root;) {
+        if (bvh_.nodes[i].count > 1) compute(i);
+    }
 }
 
 void CollapsePlan::compute(std::uint32_t node) {

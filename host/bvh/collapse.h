@@ -40,6 +40,7 @@ class CollapsePlan {
     /// the node.
     float relativeArea(const BinaryBvh::Node& node) const;
     float cost(std::uint32_t node, int trees) const;
+    void computeSubtree(std::uint32_t root, std::uint32_t firstRecord);
     void compute(std::uint32_t node);
     void collect(std::uint32_t node, int trees, Children& children) const;
 

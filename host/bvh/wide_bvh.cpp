@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -49,10 +50,11 @@ std::array<int, 8> assignSlots(std::span<const Aabb> children, const Aabb& paren
         float best = -std::numeric_limits<float>::infinity();
         int bestChild = -1;
         int bestSlot = -1;
-        for (int c = 0; c < 8; ++c) {
-            if ((freeChildren >> c & 1) == 0) continue;
-            for (int s = 0; s < 8; ++s) {
-                if ((freeSlots >> s & 1) != 0 && (bestChild < 0 || score[c][s] > best)) {
+        for (unsigned left = freeChildren; left != 0; left &= left - 1) {
+            const int c = std::countr_zero(left);
+            for (unsigned slots = freeSlots; slots != 0; slots &= slots - 1) {
+                const int s = std::countr_zero(slots);
+                if (bestChild < 0 || score[c][s] > best) {
                     best = score[c][s];
                     bestChild = c;
                     bestSlot = s;
@@ -66,33 +68,57 @@ std::array<int, 8> assignSlots(std::span<const Aabb> children, const Aabb& paren
     return slotOf;
 }
 
-/// Writes the wide tree in breadth-first-per-node order: the inner children of a node are consecutive.
+/// A part of the wide tree that is written apart from what is above it.
+struct Branch {
+    std::uint32_t binaryNode;  // its root
+    std::uint32_t wideNode;    // the place for its root, which is left empty
+    std::uint32_t level;       // of its root
+    // How much of what is above comes before its other nodes and its triangles.
+    std::uint32_t nodesBefore, trianglesBefore;
+};
+
+/// Writes a wide tree depth first, but for the inner children of a node, which are consecutive.
 class Emitter {
   public:
-    Emitter(const BinaryBvh& binary, const CollapsePlan& plan, WideBvh& out)
-        : binary_(binary), plan_(plan), out_(out) {}
+    Emitter(const BinaryBvh& binary, const CollapsePlan& plan) : binary_(binary), plan_(plan) {}
 
-    void emit() {
+    /// The tree below a binary node. Subtrees of at most `branchTriangles` become branches.
+    WideBvh emit(std::uint32_t root, std::uint32_t branchTriangles = 0) {
         struct Work {
             std::uint32_t binaryNode, wideNode, level;
         };
-        std::vector<Work> stack{{0, 0, 1}};
+        std::vector<Work> stack{{root, 0, 1}};
         out_.nodes.resize(1);
         while (!stack.empty()) {
-            const Work work = stack.back();
+            const auto [binaryNode, wideNode, level] = stack.back();
             stack.pop_back();
-            out_.depth = std::max(out_.depth, work.level);
-            const std::vector<std::uint32_t> inner = fill(work.binaryNode, work.wideNode);
-            const std::uint32_t base = out_.nodes[work.wideNode].childBase;
-            for (std::uint32_t i = static_cast<std::uint32_t>(inner.size()); i-- > 0;) {
-                stack.push_back({inner[i], base + i, work.level + 1});
+            if (binary_.nodes[binaryNode].count <= branchTriangles) {
+                branches_.push_back({binaryNode, wideNode, level,
+                                     static_cast<std::uint32_t>(out_.nodes.size()),
+                                     static_cast<std::uint32_t>(out_.triangles.size())});
+                continue;
             }
+            out_.depth = std::max(out_.depth, level);
+            const Inner inner = fill(binaryNode, wideNode);
+            const std::uint32_t base = out_.nodes[wideNode].childBase;
+            for (std::uint32_t i = inner.count; i-- > 0;)
+                stack.push_back({inner.binaryNode[i], base + i, level + 1});
         }
+        return std::move(out_);
     }
 
+    /// In the order in which one emission of everything would come to them.
+    const std::vector<Branch>& branches() const { return branches_; }
+
   private:
-    /// Fills one wide node; returns the binary nodes of its inner children in order of slots.
-    std::vector<std::uint32_t> fill(std::uint32_t binaryNode, std::uint32_t wideNode) {
+    /// The binary nodes of a wide node's inner children in order of slots.
+    struct Inner {
+        std::array<std::uint32_t, 8> binaryNode{};
+        std::uint32_t count = 0;
+    };
+
+    /// Fills one wide node.
+    Inner fill(std::uint32_t binaryNode, std::uint32_t wideNode) {
         const CollapsePlan::Children children = plan_.childrenOf(binaryNode);
         std::array<Aabb, 8> boxes;
         for (std::size_t c = 0; c < children.count; ++c)
@@ -106,7 +132,7 @@ class Emitter {
         for (int axis = 0; axis < 3; ++axis)
             quantiseAxis(node, bounds, axis, {boxes.data(), children.count}, slotOf);
 
-        std::vector<std::uint32_t> inner;
+        Inner inner;
         std::uint32_t triangleOffset = 0;
         for (int slot = 0; slot < 8; ++slot) {
             for (std::size_t c = 0; c < children.count; ++c) {
@@ -114,7 +140,7 @@ class Emitter {
                 if (!children.leaf[c]) {
                     node.meta[slot] = static_cast<std::uint8_t>(shared::kMetaInner | (24 + slot));
                     node.innerMask = static_cast<std::uint8_t>(node.innerMask | 1 << slot);
-                    inner.push_back(children.node[c]);
+                    inner.binaryNode[inner.count++] = children.node[c];
                 } else {
                     const std::uint32_t count = appendTriangles(children.node[c]);
                     const std::uint32_t unary = (1u << count) - 1;
@@ -124,7 +150,7 @@ class Emitter {
             }
         }
         out_.nodes[wideNode] = node;
-        out_.nodes.resize(out_.nodes.size() + inner.size());
+        out_.nodes.resize(out_.nodes.size() + inner.count);
         return inner;
     }
 
@@ -150,15 +176,17 @@ class Emitter {
         }
         node.origin[axis] = origin;
         node.exponent[axis] = static_cast<std::uint8_t>(exponent);
+        const double inverseStep = 1.0 / step;  // exact: a power of two
         for (std::size_t c = 0; c < boxes.size(); ++c) {
             const auto steps = [&](float x) {
-                return (static_cast<double>(x) - static_cast<double>(origin)) / step;
+                return (static_cast<double>(x) - static_cast<double>(origin)) * inverseStep;
             };
             const auto slot = static_cast<std::size_t>(slotOf[c]);
-            const double first = std::floor(steps(boxes[c].lower[axis]) - margin);
-            const double last = std::ceil(steps(boxes[c].upper[axis]) + margin);
-            node.lower[axis][slot] = static_cast<std::uint8_t>(std::clamp(first, 0.0, 255.0));
-            node.upper[axis][slot] = static_cast<std::uint8_t>(std::clamp(last, 0.0, 255.0));
+            const double first = std::clamp(steps(boxes[c].lower[axis]) - margin, 0.0, 255.0);
+            const double last = std::clamp(steps(boxes[c].upper[axis]) + margin, 0.0, 255.0);
+            const auto below = static_cast<std::uint8_t>(first), above = static_cast<std::uint8_t>(last);
+            node.lower[axis][slot] = below;
+            node.upper[axis][slot] = static_cast<std::uint8_t>(above < last ? above + 1 : above);
         }
     }
 
@@ -173,8 +201,89 @@ class Emitter {
 
     const BinaryBvh& binary_;
     const CollapsePlan& plan_;
-    WideBvh& out_;
+    WideBvh out_;
+    std::vector<Branch> branches_;
 };
+
+/// Puts branches into the tree above them: the result is that of emitting all at once, but for indices of
+/// nodes that have no inner children or no triangles.
+class Grafter {
+  public:
+    Grafter(const WideBvh& top, const std::vector<Branch>& branches, const std::vector<WideBvh>& parts)
+        : top_(top), branches_(branches), parts_(parts), nodesOf_{0}, trianglesOf_{0} {
+        for (const WideBvh& part : parts) {
+            nodesOf_.push_back(nodesOf_.back() + static_cast<std::uint32_t>(part.nodes.size()) - 1);
+            trianglesOf_.push_back(trianglesOf_.back() + static_cast<std::uint32_t>(part.triangles.size()));
+        }
+    }
+
+    WideBvh graft() {
+        WideBvh out;
+        out.depth = top_.depth;
+        out.nodes.resize(top_.nodes.size() + nodesOf_.back());
+        out.triangles.resize(top_.triangles.size() + trianglesOf_.back());
+        for (std::uint32_t i = 0; i < top_.nodes.size(); ++i) {
+            shared::WideNode node = top_.nodes[i];
+            node.childBase = nodePlace(node.childBase);
+            node.triangleBase = trianglePlace(node.triangleBase);
+            out.nodes[nodePlace(i)] = node;
+        }
+        for (std::uint32_t i = 0; i < top_.triangles.size(); ++i)
+            out.triangles[trianglePlace(i)] = top_.triangles[i];
+        for (std::size_t b = 0; b < branches_.size(); ++b)
+            out.depth = std::max(out.depth, branches_[b].level - 1 + parts_[b].depth);
+        parallelFor(branches_.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t b = begin; b < end; ++b)
+                place(b, out);
+        });
+        return out;
+    }
+
+  private:
+    void place(std::size_t b, WideBvh& out) const {
+        const std::uint32_t firstNode = branches_[b].nodesBefore + nodesOf_[b] - 1;  // of a root among them
+        const std::uint32_t firstTriangle = branches_[b].trianglesBefore + trianglesOf_[b];
+        for (std::uint32_t i = 0; i < parts_[b].nodes.size(); ++i) {
+            shared::WideNode node = parts_[b].nodes[i];
+            node.childBase += firstNode;
+            node.triangleBase += firstTriangle;
+            out.nodes[i == 0 ? nodePlace(branches_[b].wideNode) : firstNode + i] = node;
+        }
+        std::copy(parts_[b].triangles.begin(), parts_[b].triangles.end(),
+                  out.triangles.begin() + firstTriangle);
+    }
+
+    /// Where an index into the top goes: behind the branches that come before it.
+    std::uint32_t nodePlace(std::uint32_t i) const {
+        return i + nodesOf_[branchesUpTo(i, &Branch::nodesBefore)];
+    }
+    std::uint32_t trianglePlace(std::uint32_t i) const {
+        return i + trianglesOf_[branchesUpTo(i, &Branch::trianglesBefore)];
+    }
+    std::size_t branchesUpTo(std::uint32_t i, std::uint32_t Branch::*before) const {
+        const auto after = std::upper_bound(branches_.begin(), branches_.end(), i,
+                                            [&](std::uint32_t x, const Branch& b) { return x < b.*before; });
+        return static_cast<std::size_t>(after - branches_.begin());
+    }
+
+    const WideBvh& top_;
+    const std::vector<Branch>& branches_;
+    const std::vector<WideBvh>& parts_;
+    std::vector<std::uint32_t> nodesOf_, trianglesOf_;  // of the branches before, but for their roots
+};
+
+WideBvh emit(const BinaryBvh& binary, const CollapsePlan& plan) {
+    constexpr std::uint32_t kBranchTriangles = 8192;
+    if (binary.nodes[0].count <= kBranchTriangles) return Emitter(binary, plan).emit(0);
+    Emitter above(binary, plan);
+    const WideBvh top = above.emit(0, kBranchTriangles);
+    std::vector<WideBvh> parts(above.branches().size());
+    parallelFor(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            parts[i] = Emitter(binary, plan).emit(above.branches()[i].binaryNode);
+    });
+    return Grafter(top, above.branches(), parts).graft();
+}
 
 WideBvh build(const Geometry& geometry, std::span<const std::uint32_t> triangles, SplitMethod method) {
     std::vector<PrimitiveRef> refs(triangles.size());
@@ -185,10 +294,8 @@ WideBvh build(const Geometry& geometry, std::span<const std::uint32_t> triangles
     const BinaryBvh binary = buildBinaryBvh(refs, method);
     refs = {};
     const CollapsePlan plan(binary);
-    WideBvh wide;
-    wide.triangles.reserve(triangles.size());
+    WideBvh wide = emit(binary, plan);
     wide.sahCost = plan.sahCost();
-    Emitter(binary, plan, wide).emit();
     return wide;
 }
 
