@@ -33,11 +33,10 @@ bool isSmooth(const Geometry& geometry, std::uint32_t triangle) {
     return !geometry.normals.empty() && geometry.normalIndices[triangle].x != Geometry::kNoNormal;
 }
 
-shared::DeviceTriangle deviceTriangle(const Geometry& geometry, std::uint32_t triangle,
-                                      std::uint32_t primitive) {
+shared::DeviceTriangle deviceTriangle(const Geometry& geometry, std::uint32_t triangle) {
     const glm::uvec3 index = geometry.triangles[triangle];
     const std::uint32_t smooth = isSmooth(geometry, triangle) ? shared::kTriangleSmooth : 0u;
-    return {geometry.positions[index.x], primitive,
+    return {geometry.positions[index.x], triangle,
             geometry.positions[index.y], geometry.materials[triangle] | smooth,
             geometry.positions[index.z], 0};
 }
@@ -54,20 +53,12 @@ shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t tria
 struct Trees {
     std::vector<shared::WideNode> nodes;
     std::vector<std::uint32_t> triangles;  // of the geometry, in the order of the leaves
-    std::vector<std::uint32_t>
-        primitives;  // per leaf entry: the entry of the same triangle in the first tree
     std::uint32_t emitterRoot = 0;
 };
 
 Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
     WideBvh all = cachedWideBvh(geometry);
-    Trees trees{std::move(all.nodes), std::move(all.triangles), {}, 0};
-    std::vector<std::uint32_t> entryOf(geometry.triangles.size());
-    trees.primitives.resize(trees.triangles.size());
-    for (std::uint32_t i = 0; i < trees.triangles.size(); ++i) {
-        trees.primitives[i] = i;
-        entryOf[trees.triangles[i]] = i;
-    }
+    Trees trees{std::move(all.nodes), std::move(all.triangles), 0};
     if (emitters.empty()) return trees;
     const WideBvh second = cachedWideBvh(geometry, emitters);
     trees.emitterRoot = static_cast<std::uint32_t>(trees.nodes.size());
@@ -77,10 +68,7 @@ Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitte
         node.triangleBase += firstTriangle;
         trees.nodes.push_back(node);
     }
-    for (std::uint32_t triangle : second.triangles) {
-        trees.triangles.push_back(triangle);
-        trees.primitives.push_back(entryOf[triangle]);
-    }
+    trees.triangles.insert(trees.triangles.end(), second.triangles.begin(), second.triangles.end());
     return trees;
 }
 
@@ -157,7 +145,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
     std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : trees.triangles.size());
     parallelFor(triangles.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            triangles[i] = deviceTriangle(geometry, trees.triangles[i], trees.primitives[i]);
+            triangles[i] = deviceTriangle(geometry, trees.triangles[i]);
             if (!normals.empty()) normals[i] = deviceNormals(geometry, trees.triangles[i]);
         }
     });

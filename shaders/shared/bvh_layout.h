@@ -46,7 +46,7 @@ static_assert(offsetof(WideNode, meta) == 24 && offsetof(WideNode, lower) == 32 
 
 struct DeviceTriangle {
     vec3 v0;
-    uint primitive;  // the same for every copy of a triangle; orders coincident hits
+    uint primitive;  // its number in the scene, the same for every copy; orders coincident hits
     vec3 v1;
     uint materialFlags;  // material index | flags
     vec3 v2;
