@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "host/app/commands.h"
 #include "host/app/options.h"
+#include "host/app/tuning_options.h"
 #include "host/base/error.h"
 #include "host/base/temporary_folder.h"
 #include "host/bench/bench_report.h"
@@ -25,6 +27,7 @@ struct BenchOptions {
     std::string device, size = "512x512", json, baseline;
     std::uint32_t repeat = 5, spp = 16, bounces = 16;
     double threshold = 0.1;
+    TuningOptions tuning;
     bool quiet = false;
 };
 
@@ -56,14 +59,18 @@ void bench(const BenchOptions& options) {
     if (table) fmt::print("{}, {}\n", device.info().name, device.info().driver);
     const TemporaryFolder scratch;
     std::vector<BenchResult> results;
+    std::map<std::string, Tuning> tunings;
     for (const std::string& scene : options.scenes) {
         const std::string name = benchName(scene);
         const std::filesystem::path folder = scratch.path() / std::to_string(results.size());
         const std::filesystem::path file =
             isBuiltinScene(scene) ? writeBuiltinScene(scene, folder) : std::filesystem::path(scene);
         std::filesystem::create_directories(folder);
-        SceneSuite suite(device, name, file, {size.x, size.y, options.spp, options.bounces, "/proc/self/exe"},
-                         folder);
+        SceneSuite suite(
+            device, name, file,
+            {size.x, size.y, options.spp, options.bounces, options.tuning.choice(), "/proc/self/exe"},
+            folder);
+        tunings[name] = suite.tuning();
         const std::vector<Benchmark> chosen = suite.benchmarks(options.only);
         const auto onRun = [&](const std::string& what) {
             if (!options.quiet) fmt::print(stderr, "{}\n", what);
@@ -75,14 +82,19 @@ void bench(const BenchOptions& options) {
         throw UsageError(
             fmt::format("bench: no benchmark's name contains {}", fmt::join(options.only, " or ")));
     }
-    if (table) fmt::print("{}", benchTable(results));
+    if (table) {
+        for (const auto& [scene, tuning] : tunings)
+            fmt::print("{}: {} layout, {} kernel\n", scene, nameOf(tuning.layout), nameOf(tuning.kernel));
+        fmt::print("{}", benchTable(results));
+    }
     if (!options.json.empty()) {
         writeReport(options.json, benchJson(results, device.info(),
                                             {{"width", size.x},
                                              {"height", size.y},
                                              {"spp", options.spp},
                                              {"bounces", options.bounces},
-                                             {"repeat", options.repeat}}));
+                                             {"repeat", options.repeat}},
+                                            tunings));
     }
     if (options.baseline.empty()) return;
     const BaselineComparison comparison = compareWithBaseline(results, baseline, options.threshold);
@@ -116,6 +128,7 @@ void addBenchCommand(CLI::App& app) {
         ->allow_extra_args(false);
     command->add_option("--device", options->device,
                         "cpu, gpu, an index or a part of a name (see 'duolux devices')");
+    addTuningOptions(*command, options->tuning);
     command->add_option("--repeat", options->repeat, "Runs that count, in turns, after one that does not")
         ->capture_default_str()
         ->check(wholeNumber(1, 1000));

@@ -24,6 +24,7 @@ void printDevice(const DeviceInfo& device, bool chosen) {
                static_cast<double>(device.maxStorageBufferRange) / kMebibyte);
     fmt::print("     texel buffer           {} texels of 16 bytes ({} triangles at most)\n",
                device.maxTexelBufferElements, device.maxTexelBufferElements / 3);
+    fmt::print("     ray queries            {}\n", device.rayQueries ? "yes" : "no");
     if (!device.unusable.empty()) fmt::print("     unusable               lacks {}\n", device.unusable);
 }
 

@@ -15,6 +15,7 @@
 #include "host/app/interrupt.h"
 #include "host/app/options.h"
 #include "host/app/report.h"
+#include "host/app/tuning_options.h"
 #include "host/base/error.h"
 #include "host/base/progress.h"
 #include "host/scene/hash.h"
@@ -37,6 +38,7 @@ struct RenderOptions {
         checkpoint, resume;
     std::optional<std::uint32_t> spp, bounces, seed;
     std::optional<double> timeLimit;
+    TuningOptions tuning;
     float exposure = 0.0f;
     bool quiet = false;
 };
@@ -213,6 +215,7 @@ void runRender(const RenderOptions& options) {
         warn(warning);
     RenderControl control;
     control.timeLimit = options.timeLimit;
+    control.tuning = options.tuning.choice();
     control.directLight = chooseDirectLight(options, scene);
     std::optional<Checkpoint> resumed;
     if (!options.resume.empty()) resumed = readCheckpoint(options.resume);
@@ -342,6 +345,7 @@ void addRenderCommand(CLI::App& app) {
             "--device", options->device,
             "cpu, gpu, an index or a part of a name, see 'duolux devices' (default: a GPU if there is one)")
         ->type_name("DEVICE");
+    addTuningOptions(*command, options->tuning);
     command
         ->add_option("--time-limit", options->timeLimit,
                      "Stop before this many seconds of rendering with what has been accumulated, but not "

@@ -50,6 +50,10 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
     report["device"] = {{"name", device.name},
                         {"driver", device.driver},
                         {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"}};
+    report["tuning"] = {{"layout", nameOf(statistics.tuning.layout)},
+                        {"kernel", nameOf(statistics.tuning.kernel)},
+                        {"workgroup_size", statistics.tuning.workgroupSize},
+                        {"lane_paths", statistics.lanePaths}};
     report["seconds"] = {{"load", seconds.load},
                          {"build", statistics.buildSeconds},
                          {"upload", statistics.uploadSeconds},

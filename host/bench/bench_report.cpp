@@ -64,7 +64,8 @@ std::string benchTable(std::span<const BenchResult> results) {
 }
 
 std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& device,
-                      const std::map<std::string, double>& settings) {
+                      const std::map<std::string, double>& settings,
+                      const std::map<std::string, Tuning>& tunings) {
     Json report;
     report["version"] = kVersion;
     report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};
@@ -72,6 +73,13 @@ std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& de
                         {"driver", device.driver},
                         {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"}};
     report["settings"] = settings;
+    for (const auto& [scene, tuning] : tunings) {
+        report["tuning"][scene] = {{"layout", nameOf(tuning.layout)},
+                                   {"kernel", nameOf(tuning.kernel)},
+                                   {"workgroup_size", tuning.workgroupSize},
+                                   {"leave_traversal", tuning.leaveTraversal},
+                                   {"leave_nodes", tuning.leaveNodes}};
+    }
     report["results"] = Json::array();
     for (const BenchResult& r : results) {
         Json wall = Json::array();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/bench/benchmark.h"
+#include "host/gpu/tuning.h"
 #include "host/vk/device.h"
 
 namespace duolux {
@@ -16,8 +17,10 @@ namespace duolux {
 std::string benchTable(std::span<const BenchResult> results);
 
 /// Everything, as JSON with a "version".
+/// `tunings`: by the names of scenes.
 std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& device,
-                      const std::map<std::string, double>& settings);
+                      const std::map<std::string, double>& settings,
+                      const std::map<std::string, Tuning>& tunings);
 
 /// Medians of wall rates by name, of a file that benchJson made.
 struct Baseline {

@@ -70,13 +70,14 @@ struct SceneSuite::State {
           folder(std::move(folder_)),
           options(std::move(options_)),
           scene(loadScene(path)),
-          deviceScene(uploadScene(device, scene)) {}
+          deviceScene(uploadScene(device, scene, options.tuning)) {}
 
     void add(const std::string& what, std::string unit, double work, std::function<BenchTimes()> run,
              std::map<std::string, double> notes = {}) {
         benchmarks.push_back({name + "/" + what, std::move(unit), work, std::move(run), std::move(notes)});
     }
 
+    std::map<std::string, double> countTraversal(const RaySet& set) const;
     void addRays();
     void addRenders();
     void addFilm(const std::string& integrator, std::size_t pixels, std::size_t bytesPerPixel,
@@ -86,30 +87,34 @@ struct SceneSuite::State {
     void addStart();
 };
 
+/// What the traversal does for the rays of a set.
+std::map<std::string, double> SceneSuite::State::countTraversal(const RaySet& set) const {
+    if (deviceScene.tuning.layout == Layout::kRayQuery) return {};
+    TraceKernel counting(device, deviceScene, set.mode, set.rays, true);
+    counting.run();
+    const shared::TraceCounts counts = counting.counts();
+    const auto rays = static_cast<double>(set.rays.size());
+    const double lanes = deviceScene.tuning.lanes;
+    const double bytes =
+        counts.nodes * 16.0 * shared::kNodeTexels + counts.triangles * 16.0 * shared::kTriangleTexels;
+    return {{"nodes_per_ray", counts.nodes / rays},
+            {"triangles_per_ray", counts.triangles / rays},
+            {"bytes_per_ray", bytes / rays},
+            {"lanes_in_nodes", counts.nodes / (lanes * std::max(counts.nodeSteps, 1u))},
+            {"lanes_in_triangles", counts.triangles / (lanes * std::max(counts.triangleSteps, 1u))}};
+}
+
 void SceneSuite::State::addRays() {
     raySets = makeRaySets(device, scene, deviceScene, options.width, options.height);
     for (const RaySet& set : raySets) {
-        TraceKernel counting(device, deviceScene, set.mode, set.rays, true);
-        counting.run();
-        const shared::TraceCounts counts = counting.counts();
-        const auto rays = static_cast<double>(set.rays.size());
-        const double lanes = std::max(device.info().subgroupSize, 1u);
-        const std::map<std::string, double> notes{
-            {"nodes_per_ray", counts.nodes / rays},
-            {"triangles_per_ray", counts.triangles / rays},
-            {"bytes_per_ray",
-             (counts.nodes * 16.0 * shared::kNodeTexels + counts.triangles * 16.0 * shared::kTriangleTexels) /
-                 rays},
-            {"lanes_in_nodes", counts.nodes / (lanes * std::max(counts.nodeSteps, 1u))},
-            {"lanes_in_triangles", counts.triangles / (lanes * std::max(counts.triangleSteps, 1u))}};
         kernels.push_back(std::make_unique<TraceKernel>(device, deviceScene, set.mode, set.rays));
         TraceKernel& kernel = *kernels.back();
         kernel.run();
         kernel.hits();  // throws if the driver has cut it short
         const std::uint32_t passes = passesOf(kernel.run().wall);
         add(
-            "rays/" + set.name, "Mrays/s", rays * passes * 1e-6,
-            [&kernel, passes] { return kernel.run(passes); }, notes);
+            "rays/" + set.name, "Mrays/s", static_cast<double>(set.rays.size()) * passes * 1e-6,
+            [&kernel, passes] { return kernel.run(passes); }, countTraversal(set));
     }
 }
 
@@ -126,7 +131,9 @@ void SceneSuite::State::addRenders() {
             const double samples = static_cast<double>(options.width) * options.height * options.spp;
             add(fmt::format("render/{}/{}", preset.name, nameOf(integrator)), "Msamples/s", samples * 1e-6,
                 [this, changed = std::move(changed)] {
-                    const RenderStatistics statistics = render(device, changed).statistics;
+                    RenderControl control;
+                    control.tuning = options.tuning;
+                    const RenderStatistics statistics = render(device, changed, control).statistics;
                     return BenchTimes{statistics.renderSeconds, statistics.deviceSeconds};
                 });
         }
@@ -177,12 +184,16 @@ void SceneSuite::State::addHost() {
         return BenchTimes{secondsOf([this] { loadScene(path); }), 0.0};
     });
     add("build", "Mtriangles/s", triangles * 1e-6, [this] {
+        // The driver builds from what has been uploaded.
+        if (deviceScene.tuning.layout == Layout::kRayQuery) {
+            return BenchTimes{uploadScene(device, scene, options.tuning).buildSeconds, 0.0};
+        }
         return BenchTimes{secondsOf([this] { buildWideBvh(scene.geometry); }), 0.0};
     });
     const auto bytes = static_cast<double>(deviceScene.deviceBytes());
     add("upload", "MB/s", bytes * 1e-6,
         [this] {
-            return BenchTimes{uploadScene(device, scene).uploadSeconds, 0.0};
+            return BenchTimes{uploadScene(device, scene, options.tuning).uploadSeconds, 0.0};
         },
         {{"bytes_per_triangle", bytes / triangles}});
 }
@@ -198,6 +209,10 @@ void SceneSuite::State::addStart() {
                                              "--quiet",
                                              "--device",
                                              std::to_string(device.info().index),
+                                             "--layout",
+                                             nameOf(deviceScene.tuning.layout),
+                                             "--kernel",
+                                             nameOf(deviceScene.tuning.kernel),
                                              "-o",
                                              (folder / "start.pfm").string()};
     add("start/warm", "s", 1.0, [=, this] {
@@ -225,6 +240,10 @@ SceneSuite::SceneSuite(Device& device, std::string name, const std::filesystem::
 }
 
 SceneSuite::~SceneSuite() = default;
+
+const Tuning& SceneSuite::tuning() const {
+    return state_->deviceScene.tuning;
+}
 
 std::size_t SceneSuite::triangles() const {
     return state_->scene.geometry.triangles.size();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/bench/benchmark.h"
+#include "host/gpu/tuning.h"
 #include "host/vk/device.h"
 
 namespace duolux {
@@ -15,6 +16,7 @@ struct SuiteOptions {
     std::uint32_t width = 512, height = 512;  ///< of pictures, and of ray sets
     std::uint32_t spp = 16;                   ///< of pictures
     std::uint32_t bounces = 16;
+    TuningChoice tuning;
     std::string program;  ///< path of duolux itself, for start-up; empty: leave that out
 };
 
@@ -32,6 +34,7 @@ class SceneSuite {
     std::vector<Benchmark> benchmarks(const std::vector<std::string>& only);
 
     std::size_t triangles() const;
+    const Tuning& tuning() const;
 
   private:
     struct State;

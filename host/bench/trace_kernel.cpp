@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cstring>
 
@@ -13,26 +13,15 @@ namespace duolux {
 
 namespace {
 
-bool onCpu(const Device& device) {
-    return device.info().kind == DeviceKind::kCpu;
-}
-
-std::uint32_t lanesOf(const Device& device) {
-    return std::max(device.info().subgroupSize, 1u);
-}
-
-// Rays that a lane traces, one after the other. Few lanes run at once on a CPU; on a GPU they must be many.
-std::uint32_t chooseBlock(const Device& device) {
-    return lanesOf(device) * (onCpu(device) ? 128u : 4u);
-}
-
-std::uint32_t chooseWorkgroup(const Device& device) {
-    return std::max(lanesOf(device), onCpu(device) ? 8u : 64u);
-}
-
 Buffer makeResults(const Device& device, std::size_t rays, bool count) {
     const std::size_t size = count ? sizeof(shared::TraceCounts) : rays * sizeof(shared::TraceHit);
     return Buffer::readback(device, size, "hits", vk::BufferUsageFlagBits::eTransferDst);
+}
+
+std::vector<Binding> traceBindings(std::vector<Binding> bindings, const Buffer& rays, const Buffer& results) {
+    bindings.push_back({shared::kBindingRays, &rays});
+    bindings.push_back({shared::kBindingHits, &results});
+    return bindings;
 }
 
 }  // namespace
@@ -41,24 +30,25 @@ TraceKernel::TraceKernel(const Device& device, const DeviceScene& scene, std::ui
                          std::span<const shared::TraceRay> rays, bool count)
     : device_(&device),
       rayCount_(static_cast<std::uint32_t>(rays.size())),
-      lanes_(lanesOf(device)),
-      blockRays_(chooseBlock(device)),
-      workgroupSize_(chooseWorkgroup(device)),
+      lanes_(scene.tuning.lanes),
+      blockRays_(lanes_ * scene.tuning.laneRays),
+      workgroupSize_(scene.tuning.workgroupSize),
       count_(count),
       rays_(Buffer::upload(device, BufferUse::kTexels, rays, "rays")),
       results_(makeResults(device, rays.size(), count)),
-      kernel_(device, "trace", spirv::kTraceKernel,
-              std::vector<Binding>{{shared::kBindingNodes, &scene.nodes},
-                                   {shared::kBindingTriangles, &scene.triangles},
-                                   {shared::kBindingRays, &rays_},
-                                   {shared::kBindingHits, &results_}},
+      kernel_(device, "trace",
+              variantFor(scene.tuning.layout, spirv::kTraceKernelTexel, spirv::kTraceKernelStorage,
+                         spirv::kTraceKernelRayQuery),
+              traceBindings(scene.treeBindings(), rays_, results_),
               std::vector<Specialization>{{shared::kSpecWorkgroupSize, workgroupSize_},
-                                          {shared::kSpecLeaveTraversal, lanes_ / 2},
-                                          {shared::kSpecLeaveNodes, lanes_ * 3 / 8},
+                                          {shared::kSpecLeaveTraversal, scene.tuning.leaveTraversal},
+                                          {shared::kSpecLeaveNodes, scene.tuning.leaveNodes},
                                           {shared::kSpecTraceMode, mode},
                                           {shared::kSpecCount, count}},
               sizeof(shared::TraceDispatch)),
-      commands_(device) {}
+      commands_(device) {
+    assert(!count || scene.tuning.layout != Layout::kRayQuery);
+}
 
 BenchTimes TraceKernel::run(std::uint32_t passes) {
     using Stage = vk::PipelineStageFlagBits;

@@ -17,7 +17,8 @@ namespace duolux {
 /// Traces the same rays again and again: the traversal by itself.
 class TraceKernel {
   public:
-    /// `count`: counts what the traversal does instead of giving hits.
+    /// `count`: counts what the traversal does instead of giving hits; not with Layout::kRayQuery, because
+    /// drivers do not tell.
     TraceKernel(const Device& device, const DeviceScene& scene, std::uint32_t mode,
                 std::span<const shared::TraceRay> rays, bool count = false);
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "host/base/parallel.h"
 #include "host/bvh/tree_cache.h"
@@ -54,7 +55,31 @@ struct Trees {
     std::vector<shared::WideNode> nodes;
     std::vector<std::uint32_t> triangles;  // of the geometry, in the order of the leaves
     std::uint32_t emitterRoot = 0;
+
+    std::uint64_t largestBuffer() const {
+        return std::max(nodes.size() * sizeof(shared::WideNode),
+                        triangles.size() * sizeof(shared::DeviceTriangle));
+    }
 };
+
+/// What the driver is to build trees over: all triangles, and behind them copies of the emitters.
+Trees listTriangles(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
+    Trees trees;
+    trees.triangles.resize(geometry.triangles.size());
+    std::iota(trees.triangles.begin(), trees.triangles.end(), 0u);
+    if (emitters.empty()) return trees;
+    trees.emitterRoot = static_cast<std::uint32_t>(trees.triangles.size());
+    trees.triangles.insert(trees.triangles.end(), emitters.begin(), emitters.end());
+    return trees;
+}
+
+AccelerationStructure buildStructure(const Device& device, const Buffer& buffer, const Trees& trees) {
+    const auto count = static_cast<std::uint32_t>(trees.triangles.size());
+    const std::uint32_t first = trees.emitterRoot;
+    std::vector<AccelerationStructure::Part> parts{{0, first > 0 ? first : count, shared::kMaskAll}};
+    if (first > 0) parts.push_back({first, count - first, shared::kMaskEmitters});
+    return {device, buffer, parts};
+}
 
 Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
     WideBvh all = cachedWideBvh(geometry);
@@ -119,14 +144,22 @@ std::vector<shared::DeviceMaterial> deviceMaterials(const Scene& scene, const Li
 
 }  // namespace
 
-std::uint64_t DeviceScene::deviceBytes() const {
-    return nodes.allocated() + triangles.allocated() + normals.allocated() + materials.allocated() +
-           lights.allocated();
+std::vector<Binding> DeviceScene::treeBindings() const {
+    const Binding tree = structure ? Binding{shared::kBindingNodes, nullptr, structure->handle()}
+                                   : Binding{shared::kBindingNodes, &nodes};
+    return {tree, {shared::kBindingTriangles, &triangles}};
 }
 
-DeviceScene uploadScene(const Device& device, const Scene& scene) {
+std::uint64_t DeviceScene::deviceBytes() const {
+    return nodes.allocated() + triangles.allocated() + normals.allocated() + materials.allocated() +
+           lights.allocated() + (structure ? structure->allocated() : 0);
+}
+
+DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice) {
     const Geometry& geometry = scene.geometry;
     const TransportTraits traits = analyseTransport(scene);
+    Tuning tuning = chooseTuning(device.info(), choice);
+    const bool rayQueries = tuning.layout == Layout::kRayQuery;
 
     auto start = std::chrono::steady_clock::now();
     std::vector<std::uint32_t> emitters;
@@ -136,7 +169,9 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
     // Only rays that nothing stops look for emitters in a tree of their own.
     const bool lightPaths = scene.render.integrator == Integrator::kLight;
     const bool ownTree = traits.transmittance == shared::kTransmittanceIdentity && !lightPaths;
-    const Trees trees = buildTrees(geometry, ownTree ? emitters : std::vector<std::uint32_t>{});
+    const std::vector<std::uint32_t> inOwnTree = ownTree ? emitters : std::vector<std::uint32_t>{};
+    const Trees trees = rayQueries ? listTriangles(geometry, inOwnTree) : buildTrees(geometry, inOwnTree);
+    tuning.layout = layoutThatFits(device.info(), tuning.layout, choice, trees.largestBuffer());
     const double buildSeconds = secondsSince(start);
 
     start = std::chrono::steady_clock::now();
@@ -150,8 +185,10 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
         }
     });
     using Use = BufferUse;
+    const Use treeUse = tuning.layout == Layout::kStorage ? Use::kStorage : Use::kTexels;
     DeviceScene out{
         .traits = traits,
+        .tuning = tuning,
         .hasEmitters = !emitters.empty(),
         .hasSmoothNormals = !normals.empty(),
         .closedFormApplies = traits.transmittance == shared::kTransmittanceIdentity && normals.empty() &&
@@ -161,14 +198,21 @@ DeviceScene uploadScene(const Device& device, const Scene& scene) {
         .emitterBounds = widenedBounds(geometry, emitters),
         .quantum = filmQuantum(scene),
         .buildSeconds = buildSeconds,
-        .nodes = Buffer::upload<shared::WideNode>(device, Use::kTexels, trees.nodes, "BVH nodes"),
-        .triangles = Buffer::upload<shared::DeviceTriangle>(device, Use::kTexels, triangles, "triangles"),
+        .nodes = Buffer::upload<shared::WideNode>(device, treeUse, trees.nodes, "BVH nodes"),
+        .triangles = Buffer::upload<shared::DeviceTriangle>(
+            device, treeUse, triangles, "triangles",
+            rayQueries ? AccelerationStructure::kTriangleUse : vk::BufferUsageFlags()),
         .normals = Buffer::upload<shared::DeviceNormals>(device, Use::kTexels, normals, "normals"),
         .materials = Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels,
                                                             deviceMaterials(scene, table), "materials"),
         .lights = Buffer::upload<shared::DeviceLight>(device, Use::kTexels, table.lights, "lights"),
     };
     out.uploadSeconds = secondsSince(start);
+    if (rayQueries) {
+        start = std::chrono::steady_clock::now();
+        out.structure.emplace(buildStructure(device, out.triangles, trees));
+        out.buildSeconds += secondsSince(start);
+    }
     return out;
 }
 

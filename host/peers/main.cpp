@@ -60,6 +60,7 @@ class Pair {
     }
 
     const std::vector<Benchmark>& benchmarks() const { return benchmarks_; }
+    const Tuning& tuning() const { return deviceScene_->tuning; }
 
     /// Mean radiance of the picture by Duolux and by Embree.
     void compareImages() const {
@@ -145,12 +146,14 @@ void run(const PeerOptions& options) {
     fmt::print("{}, {}\n", device.info().name, device.info().driver);
     const TemporaryFolder scratch;
     std::vector<BenchResult> results;
+    std::map<std::string, Tuning> tunings;
     for (const std::string& scene : options.scenes) {
         const bool builtin = isBuiltinScene(scene);
         const std::filesystem::path file =
             builtin ? writeBuiltinScene(scene, scratch.path() / scene) : std::filesystem::path(scene);
         const Pair pair(device, builtin ? scene : file.stem().string(), file, options);
         pair.compareImages();
+        tunings[scene] = pair.tuning();
         std::vector<Benchmark> chosen;
         for (const Benchmark& b : pair.benchmarks()) {
             const auto matches = [&](const std::string& part) {
@@ -170,7 +173,8 @@ void run(const PeerOptions& options) {
                                             {{"size", options.size},
                                              {"spp", options.spp},
                                              {"bounces", options.bounces},
-                                             {"repeat", options.repeat}}));
+                                             {"repeat", options.repeat}},
+                                            tunings));
     }
 }
 

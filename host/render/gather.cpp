@@ -59,6 +59,7 @@ class Gatherer {
                           context_.scene.render.spp, kernel.maxSlots(), maxSamples);
         schedule.resume(samplesOfSlots());
         if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
+        statistics.lanePaths = kernel.laneSamples();
         context_.begin();
         unsigned submitted = 0;
         unsigned received = 0;

@@ -59,20 +59,20 @@ Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const 
 }
 
 std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer& params) {
-    return {
-        {shared::kBindingNodes, &deviceScene.nodes},     {shared::kBindingTriangles, &deviceScene.triangles},
-        {shared::kBindingNormals, &deviceScene.normals}, {shared::kBindingMaterials, &deviceScene.materials},
-        {shared::kBindingLights, &deviceScene.lights},   {shared::kBindingParams, &params}};
+    std::vector<Binding> bindings = deviceScene.treeBindings();
+    bindings.push_back({shared::kBindingNormals, &deviceScene.normals});
+    bindings.push_back({shared::kBindingMaterials, &deviceScene.materials});
+    bindings.push_back({shared::kBindingLights, &deviceScene.lights});
+    bindings.push_back({shared::kBindingParams, &params});
+    return bindings;
 }
 
-std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, const Scene& scene,
-                                                const Teams& teams) {
+std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, const Scene& scene) {
     const TransportTraits& traits = deviceScene.traits;
-    // Fractions of a subgroup; measured on an 8-wide one, where 4 to 5 and 2 to 4 lanes are within noise of
-    // each other.
-    return {{shared::kSpecWorkgroupSize, teams.workgroupSize()},
-            {shared::kSpecLeaveTraversal, teams.lanes() / 2},
-            {shared::kSpecLeaveNodes, teams.lanes() * 3 / 8},
+    const Tuning& tuning = deviceScene.tuning;
+    return {{shared::kSpecWorkgroupSize, tuning.workgroupSize},
+            {shared::kSpecLeaveTraversal, tuning.leaveTraversal},
+            {shared::kSpecLeaveNodes, tuning.leaveNodes},
             {shared::kSpecTransmittance, traits.transmittance},
             {shared::kSpecSecondColumn, traits.secondColumn},
             {shared::kSpecInvisibleScatters, traits.invisibleScatters},
@@ -83,15 +83,12 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent
                                                                                  : shared::kSamplerSobol},
-            {shared::kSpecTeamSize, teams.lanes()}};
+            {shared::kSpecTeamSize, tuning.lanes}};
 }
 
-// On lavapipe 64 samples or more are within noise of each other, but 16 are 12 % slower; it ends the loops of
-// a subgroup after 65535 iterations, which rays with many crossings reach early. A GPU needs many teams more
-// than it needs this.
-std::uint32_t chooseLanePaths(const Device& device, const TransportTraits& traits) {
-    if (device.info().kind != DeviceKind::kCpu) return 16u;
-    return traits.transmittance == shared::kTransmittanceGeneral ? 32u : 128u;
+std::uint32_t lanePaths(const DeviceScene& deviceScene) {
+    const bool crossing = deviceScene.traits.transmittance == shared::kTransmittanceGeneral;
+    return crossing ? deviceScene.tuning.laneCrossingPaths : deviceScene.tuning.lanePaths;
 }
 
 }  // namespace duolux

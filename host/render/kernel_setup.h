@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "host/gpu/device_scene.h"
-#include "host/render/teams.h"
 #include "host/scene/scene.h"
 #include "host/vk/kernel.h"
 
@@ -18,10 +17,9 @@ Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const 
 std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer& params);
 
 /// The specialisation constants that both kernels have.
-std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, const Scene& scene,
-                                                const Teams& teams);
+std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, const Scene& scene);
 
 /// Paths that a lane takes in one dispatch.
-std::uint32_t chooseLanePaths(const Device& device, const TransportTraits& traits);
+std::uint32_t lanePaths(const DeviceScene& deviceScene);
 
 }  // namespace duolux

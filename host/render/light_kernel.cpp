@@ -18,12 +18,13 @@ static_assert(kPixelBytes == shared::kFilmSums * 8);
 
 constexpr std::uint32_t kReadPixels = 1u << 20;  // of the film, at a time
 
-std::uint32_t chooseBandPixels(const Device& device, const Scene& scene, std::uint32_t limit) {
+std::uint32_t chooseBandPixels(const Device& device, Layout layout, const Scene& scene, std::uint32_t limit) {
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
-    // The results and the teams' progress are storage buffers, too.
+    // The results and the teams' progress are storage buffers, too, and so may be nodes and triangles.
+    const std::uint32_t others = layout == Layout::kStorage ? 4 : 2;
     const std::uint32_t bindable =
         device.physical().getProperties().limits.maxPerStageDescriptorStorageBuffers;
-    const std::uint64_t bands = std::min(shared::kMaxFilmBands, bindable - std::min(bindable, 2u));
+    const std::uint64_t bands = std::min(shared::kMaxFilmBands, bindable - std::min(bindable, others));
     std::uint64_t most = device.info().maxStorageBufferRange / kPixelBytes;
     if (limit > 0) most = std::min<std::uint64_t>(most, limit);
     if (pixels > most * bands) {
@@ -55,13 +56,22 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
     return bindings;
 }
 
-std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, const Teams& teams,
-                                       std::size_t bands, std::uint32_t bandPixels) {
-    std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene, teams);
+std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, std::size_t bands,
+                                       std::uint32_t bandPixels) {
+    std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene);
     constants.push_back({shared::kSpecCameraTransmittance, deviceScene.traits.cameraTransmittance});
     constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
     constants.push_back({shared::kSpecBandPixels, bandPixels});
     return constants;
+}
+
+std::span<const std::uint32_t> chooseVariant(const Device& device, Layout layout, bool noInt64Atomics) {
+    if (device.info().int64Atomics && !noInt64Atomics) {
+        return variantFor(layout, spirv::kLightKernelInt64Texel, spirv::kLightKernelInt64Storage,
+                          spirv::kLightKernelInt64RayQuery);
+    }
+    return variantFor(layout, spirv::kLightKernelTexel, spirv::kLightKernelStorage,
+                      spirv::kLightKernelRayQuery);
 }
 
 }  // namespace
@@ -69,12 +79,12 @@ std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Sce
 LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
                          std::uint32_t maxPaths, const Limits& limits)
     : device_(&device),
-      lanePaths_(chooseLanePaths(device, deviceScene.traits)),
+      lanePaths_(duolux::lanePaths(deviceScene)),
       maxPaths_(maxPaths),
       pixels_(scene.render.width * scene.render.height),
-      bandPixels_(chooseBandPixels(device, scene, limits.filmBandPixels)),
+      bandPixels_(chooseBandPixels(device, deviceScene.tuning.layout, scene, limits.filmBandPixels)),
       readPixels_(std::min(bandPixels_, kReadPixels)),
-      teams_(device, maxPaths),
+      teams_(device, deviceScene.tuning, maxPaths),
       maxLanes_((maxPaths + teams_.lanes() - 1) / teams_.lanes() * teams_.lanes()),
       params_(uploadParams(device, deviceScene, scene)),
       results_(
@@ -82,12 +92,9 @@ LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, c
       filmRead_(
           Buffer::readback(device, readPixels_ * kPixelBytes, "film", vk::BufferUsageFlagBits::eTransferDst)),
       film_(makeFilm(device, pixels_, bandPixels_)),
-      kernel_(device, "light",
-              device.info().int64Atomics && !limits.noInt64Atomics ? spirv::kLightKernelInt64
-                                                                   : spirv::kLightKernel,
+      kernel_(device, "light", chooseVariant(device, deviceScene.tuning.layout, limits.noInt64Atomics),
               lightBindings(sceneBindings(deviceScene, params_), results_, teams_, film_),
-              specialize(deviceScene, scene, teams_, film_.size(), bandPixels_),
-              sizeof(shared::LightDispatch)),
+              specialize(deviceScene, scene, film_.size(), bandPixels_), sizeof(shared::LightDispatch)),
       commands_{CommandSlot(device), CommandSlot(device)} {
     clearFilm();
 }

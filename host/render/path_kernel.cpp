@@ -10,11 +10,10 @@ namespace duolux {
 
 namespace {
 
-std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, const Teams& teams,
-                                       bool closedForm) {
+std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, bool closedForm) {
     std::uint32_t directLight = closedForm ? shared::kDirectLightClosedForm : shared::kDirectLightSampled;
     if (deviceScene.lightCount == 0) directLight = shared::kDirectLightNone;
-    std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene, teams);
+    std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene);
     constants.push_back({shared::kSpecDirectLight, directLight});
     constants.push_back({shared::kSpecHasEmitters, deviceScene.hasEmitters});
     return constants;
@@ -32,16 +31,18 @@ std::vector<Binding> pathBindings(std::vector<Binding> bindings, const Buffer& p
 
 PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
                        std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm)
-    : laneSamples_(chooseLanePaths(device, deviceScene.traits)),
+    : laneSamples_(lanePaths(deviceScene)),
       maxSlots_(maxSlots),
       pixels_(pixels),
-      teams_(device, maxSlots),
+      teams_(device, deviceScene.tuning, maxSlots),
       params_(uploadParams(device, deviceScene, scene)),
       pixelOrder_(Buffer::upload(device, BufferUse::kTexels, pixels, "pixel order")),
       results_(Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxSlots}, "results")),
-      kernel_(device, "path", spirv::kPathKernel,
+      kernel_(device, "path",
+              variantFor(deviceScene.tuning.layout, spirv::kPathKernelTexel, spirv::kPathKernelStorage,
+                         spirv::kPathKernelRayQuery),
               pathBindings(sceneBindings(deviceScene, params_), pixelOrder_, results_, teams_),
-              specialize(deviceScene, scene, teams_, closedForm), sizeof(shared::DispatchParams)),
+              specialize(deviceScene, scene, closedForm), sizeof(shared::DispatchParams)),
       commands_{CommandSlot(device), CommandSlot(device)} {}
 
 std::uint64_t PathKernel::deviceBytes() const {

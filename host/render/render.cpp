@@ -92,7 +92,7 @@ bool RenderStatistics::cutOffByBounces() const {
 }
 
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {
-    DeviceScene deviceScene = uploadScene(device, scene);
+    DeviceScene deviceScene = uploadScene(device, scene, control.tuning);
     const float quantum = deviceScene.quantum;
     RenderContext context{device,
                           scene,
@@ -111,6 +111,7 @@ RenderOutput render(Device& device, const Scene& scene, const RenderControl& con
         context.statistics.filmOverflowed = state.filmOverflowed;
     }
     RenderStatistics& statistics = context.statistics;
+    statistics.tuning = context.deviceScene.tuning;
     statistics.buildSeconds = context.deviceScene.buildSeconds;
     statistics.uploadSeconds = context.deviceScene.uploadSeconds;
     statistics.effectiveBounces = context.deviceScene.traits.effectiveBounces;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/film/film.h"
+#include "host/gpu/tuning.h"
 #include "host/scene/scene.h"
 #include "host/vk/device.h"
 
@@ -46,6 +47,7 @@ struct RenderControl {
     std::function<void(const Film&, const RenderStatistics&)> onCheckpoint;
     double checkpointSeconds = 60.0;
     DirectLight directLight = DirectLight::kAuto;
+    TuningChoice tuning;
     /// Called now and then from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
     /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the
@@ -60,7 +62,9 @@ struct RenderControl {
 };
 
 struct RenderStatistics {
-    double buildSeconds = 0.0;  ///< BVH
+    Tuning tuning;
+    std::uint32_t lanePaths = 0;  ///< that a lane took at most in one dispatch
+    double buildSeconds = 0.0;    ///< BVH
     double uploadSeconds = 0.0;
     double pipelineSeconds = 0.0;       ///< creating the pipeline (and compiling, on drivers that do it then)
     double firstDispatchSeconds = 0.0;  ///< wall, of the first dispatch (some drivers compile in it)
@@ -94,8 +98,9 @@ struct RenderOutput {
 };
 
 /// Renders the scene with its integrator. The film holds what was resumed, too. Throws UsageError if the
-/// direct light is asked for in closed form where there is none. Same scene, settings, seed and device give
-/// the same bits. Throws MachineError naming the stage and the driver if the device fails.
+/// direct light is asked for in closed form where there is none, or the device lacks what tuning asks for.
+/// Same scene, settings, seed and device give the same bits. Throws MachineError naming the stage and the
+/// driver if the device fails.
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
 
 }  // namespace duolux

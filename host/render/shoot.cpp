@@ -24,6 +24,7 @@ class Shooter {
         LightKernel kernel(context_.device, context_.deviceScene, context_.scene, maxPaths,
                            {control.filmBandPixels, control.noInt64Atomics});
         if (control.maxSamplesPerLane > 0) kernel.limitLanePaths(control.maxSamplesPerLane);
+        statistics.lanePaths = kernel.lanePaths();
         statistics.pipelineSeconds =
             std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
         statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();

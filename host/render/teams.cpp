@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "host/base/parallel.h"
 #include "shaders/shared/path_layout.h"
 
 namespace duolux {
@@ -12,19 +11,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits;
 using Access = vk::AccessFlagBits;
-
-bool onCpu(const Device& device) {
-    return device.info().kind == DeviceKind::kCpu;
-}
-
-std::uint32_t chooseWorkgroupSize(const Device& device, std::uint32_t lanes) {
-    const auto limits = device.physical().getProperties().limits;
-    // On a CPU a work group is about a team: what runs at once are the few threads.
-    const std::uint32_t wanted = onCpu(device) ? 8u : 64u;
-    const std::uint32_t largest =
-        std::min({wanted, limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations});
-    return std::max(largest / lanes, 1u) * lanes;
-}
 
 void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags before, vk::AccessFlags written,
              vk::PipelineStageFlags after, vk::AccessFlags used) {
@@ -35,11 +21,10 @@ constexpr vk::AccessFlags kShader = Access::eShaderRead | Access::eShaderWrite;
 
 }  // namespace
 
-// So many teams at least keep the device busy: threads of a CPU four times over.
-Teams::Teams(const Device& device, std::uint32_t maxItems)
-    : lanes_(std::max(device.info().subgroupSize, 1u)),
-      workgroupSize_(chooseWorkgroupSize(device, lanes_)),
-      fewestTeams_(onCpu(device) ? 4u * workerCount() : 8192u),
+Teams::Teams(const Device& device, const Tuning& tuning, std::uint32_t maxItems)
+    : lanes_(tuning.lanes),
+      workgroupSize_(tuning.workgroupSize),
+      fewestTeams_(tuning.fewestTeams),
       maxItems_(maxItems),
       progress_(Buffer::device(
           device, BufferUse::kStorage, 2 * sizeof(shared::TeamProgress) * std::uint64_t{maxItems},

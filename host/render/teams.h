@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "host/gpu/tuning.h"
 #include "host/vk/buffer.h"
 #include "host/vk/device.h"
 #include "host/vk/kernel.h"
@@ -20,10 +21,9 @@ inline std::int64_t signed64(std::uint32_t low, std::uint32_t high) {
 class Teams {
   public:
     /// `maxItems`: of one dispatch.
-    Teams(const Device& device, std::uint32_t maxItems);
+    Teams(const Device& device, const Tuning& tuning, std::uint32_t maxItems);
 
-    std::uint32_t lanes() const { return lanes_; }  ///< of a team
-    std::uint32_t workgroupSize() const { return workgroupSize_; }
+    std::uint32_t lanes() const { return lanes_; }        ///< of a team
     const Buffer& progress() const { return progress_; }  ///< shared::TeamProgress
     std::uint32_t firstTeam(unsigned place) const { return place * maxItems_; }
     std::uint64_t deviceBytes() const { return progress_.allocated() + read_.allocated(); }

@@ -23,6 +23,8 @@ vk::BufferUsageFlags usageOf(BufferUse use) {
             return vk::BufferUsageFlagBits::eUniformBuffer;
         case BufferUse::kStorage:
             return vk::BufferUsageFlagBits::eStorageBuffer;
+        case BufferUse::kUnbound:
+            return {};
     }
     return {};
 }
@@ -86,7 +88,10 @@ Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::Buff
                 break;
         }
         if (!type) throw MachineError(fmt::format("{}: no memory type for {}", device.info().name, name));
-        memory_ = vk::raii::DeviceMemory(*device_, vk::MemoryAllocateInfo(requirements.size, *type));
+        vk::MemoryAllocateInfo allocation(requirements.size, *type);
+        const vk::MemoryAllocateFlagsInfo addressed(vk::MemoryAllocateFlagBits::eDeviceAddress);
+        if (extra & vk::BufferUsageFlagBits::eShaderDeviceAddress) allocation.setPNext(&addressed);
+        memory_ = vk::raii::DeviceMemory(*device_, allocation);
         allocated_ = requirements.size;
         buffer_.bindMemory(*memory_, 0);
         const vk::MemoryPropertyFlags flags = properties.memoryTypes[*type].propertyFlags;
@@ -110,8 +115,9 @@ void Buffer::write(std::span<const std::byte> bytes) const {
 }
 
 Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
-                      std::string_view name) {
-    Buffer buffer(device, use, bytes.size(), vk::BufferUsageFlagBits::eTransferDst, Memory::kDevice, name);
+                      std::string_view name, vk::BufferUsageFlags extra) {
+    Buffer buffer(device, use, bytes.size(), extra | vk::BufferUsageFlagBits::eTransferDst, Memory::kDevice,
+                  name);
     if (bytes.empty()) return buffer;
     if (buffer.mapped_ != nullptr) {
         buffer.write(bytes);
@@ -150,6 +156,10 @@ Buffer Buffer::device(const Device& device, BufferUse use, std::uint64_t size, v
 Buffer Buffer::readback(const Device& device, std::uint64_t size, std::string_view name,
                         vk::BufferUsageFlags extra) {
     return Buffer(device, BufferUse::kStorage, size, extra, Memory::kReadback, name);
+}
+
+vk::DeviceAddress Buffer::address() const {
+    return device_->getBufferAddress(vk::BufferDeviceAddressInfo(*buffer_));
 }
 
 void Buffer::invalidate() const {

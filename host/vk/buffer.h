@@ -10,17 +10,17 @@
 
 namespace duolux {
 
-/// How a buffer is bound in kernels.
-enum class BufferUse : std::uint8_t { kTexels, kUniform, kStorage };
+/// How a buffer is bound in kernels; kUnbound: not at all.
+enum class BufferUse : std::uint8_t { kTexels, kUniform, kStorage, kUnbound };
 
 /// A buffer with memory of its own. Never empty: a size of 0 is rounded up.
 class Buffer {
   public:
     /// Written by the host once, through a staging buffer where the device's memory is not visible to the
-    /// host. `name` is for error messages. Throws MachineError if the device's limits or memory do not
-    /// suffice.
+    /// host. `name` is for error messages; `extra`: uses beyond `use`. Throws MachineError if the device's
+    /// limits or memory do not suffice.
     static Buffer upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
-                         std::string_view name);
+                         std::string_view name, vk::BufferUsageFlags extra = {});
 
     /// Through a staging buffer in any case, so that tests reach what upload() does where memory is not
     /// visible.
@@ -28,9 +28,9 @@ class Buffer {
                                std::string_view name);
 
     template <typename T>
-    static Buffer upload(const Device& device, BufferUse use, std::span<const T> items,
-                         std::string_view name) {
-        return upload(device, use, std::as_bytes(items), name);
+    static Buffer upload(const Device& device, BufferUse use, std::span<const T> items, std::string_view name,
+                         vk::BufferUsageFlags extra = {}) {
+        return upload(device, use, std::as_bytes(items), name, extra);
     }
 
     /// Written and read by the device alone.
@@ -46,6 +46,8 @@ class Buffer {
     std::uint64_t size() const { return size_; }
     std::uint64_t allocated() const { return allocated_; }  ///< bytes of device memory
     BufferUse use() const { return use_; }
+    /// In the device's memory; only with the extra use eShaderDeviceAddress.
+    vk::DeviceAddress address() const;
 
     /// The contents of a readback buffer; valid after invalidate() once the device is done.
     const std::byte* mapped() const { return static_cast<const std::byte*>(mapped_); }

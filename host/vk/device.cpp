@@ -66,6 +66,27 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, Validation val
     }
 }
 
+constexpr std::array kRayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                         VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                         VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+
+bool hasRayQueries(const vk::raii::PhysicalDevice& physical) {
+    const std::vector<vk::ExtensionProperties> there = physical.enumerateDeviceExtensionProperties();
+    for (const char* wanted : kRayQueryExtensions) {
+        const auto isWanted = [wanted](const vk::ExtensionProperties& extension) {
+            return std::strcmp(extension.extensionName, wanted) == 0;
+        };
+        if (std::none_of(there.begin(), there.end(), isWanted)) return false;
+    }
+    const auto features =
+        physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                              vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                              vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    return features.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress &&
+           features.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
+           features.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;
+}
+
 /// The features the kernels need, as far as the device has them.
 std::string missingFeature(const vk::raii::PhysicalDevice& physical) {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
@@ -107,6 +128,8 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
     info.subgroupSize = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
     info.maxStorageBufferRange = properties.limits.maxStorageBufferRange;
     info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
+    info.maxWorkgroupSize = std::min(properties.limits.maxComputeWorkGroupSize[0],
+                                     properties.limits.maxComputeWorkGroupInvocations);
     const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
         if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
@@ -117,6 +140,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
         physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     info.int64Atomics = features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
                         features.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics;
+    info.rayQueries = hasRayQueries(physical);
     info.unusable = missingFeature(physical);
     return info;
 }
@@ -151,6 +175,14 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
     features.features.shaderStorageBufferArrayDynamicIndexing = VK_TRUE;
     features.features.shaderInt64 = info.int64Atomics;
     vk::DeviceCreateInfo create({}, queue);
+    vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures(VK_TRUE);
+    vk::PhysicalDeviceRayQueryFeaturesKHR queries(VK_TRUE);
+    if (info.rayQueries) {
+        features12.bufferDeviceAddress = VK_TRUE;
+        features12.pNext = &structures;
+        structures.pNext = &queries;
+        create.setPEnabledExtensionNames(kRayQueryExtensions);
+    }
     create.setPNext(&features);
     try {
         return vk::raii::Device(physical, create);

@@ -21,9 +21,11 @@ struct DeviceInfo {
     std::uint32_t subgroupSize = 0;
     std::uint64_t maxStorageBufferRange = 0;  ///< bytes
     std::uint64_t maxTexelBufferElements = 0;
-    bool int64Atomics = false;      ///< 64-bit integers and atomics on them in storage buffers
-    std::uint64_t memoryBytes = 0;  ///< of the largest device-local heap
-    std::string unusable;           ///< empty, or which required feature is missing
+    std::uint32_t maxWorkgroupSize = 0;  ///< invocations of a work group along x
+    bool int64Atomics = false;           ///< 64-bit integers and atomics on them in storage buffers
+    bool rayQueries = false;             ///< acceleration structures, and queries of them in kernels
+    std::uint64_t memoryBytes = 0;       ///< of the largest device-local heap
+    std::string unusable;                ///< empty, or which required feature is missing
 };
 
 /// All physical devices, usable or not. Throws MachineError if there is no Vulkan loader or driver.

@@ -8,14 +8,17 @@ namespace duolux {
 
 namespace {
 
-vk::DescriptorType descriptorType(BufferUse use) {
-    switch (use) {
+vk::DescriptorType descriptorType(const Binding& binding) {
+    if (binding.buffer == nullptr) return vk::DescriptorType::eAccelerationStructureKHR;
+    switch (binding.buffer->use()) {
         case BufferUse::kTexels:
             return vk::DescriptorType::eUniformTexelBuffer;
         case BufferUse::kUniform:
             return vk::DescriptorType::eUniformBuffer;
         case BufferUse::kStorage:
             return vk::DescriptorType::eStorageBuffer;
+        case BufferUse::kUnbound:
+            break;
     }
     return {};
 }
@@ -30,7 +33,7 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
         std::vector<vk::DescriptorSetLayoutBinding> layoutBindings;
         std::vector<vk::DescriptorPoolSize> sizes;
         for (const Binding& b : bindings) {
-            const vk::DescriptorType type = descriptorType(b.buffer->use());
+            const vk::DescriptorType type = descriptorType(b);
             sizes.emplace_back(type, 1);
             if (!layoutBindings.empty() && layoutBindings.back().binding == b.binding) {
                 ++layoutBindings.back().descriptorCount;
@@ -54,13 +57,18 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
         for (std::size_t i = 0; i < bindings.size(); ++i) {
             const Binding& b = bindings[i];
             element = i > 0 && bindings[i - 1].binding == b.binding ? element + 1 : 0;
-            const vk::DescriptorType type = descriptorType(b.buffer->use());
-            const vk::DescriptorBufferInfo info(b.buffer->handle(), 0, VK_WHOLE_SIZE);
-            const vk::BufferView view = b.buffer->view();
+            const vk::DescriptorType type = descriptorType(b);
+            const vk::WriteDescriptorSetAccelerationStructureKHR structure(b.structure);
+            vk::DescriptorBufferInfo info({}, 0, VK_WHOLE_SIZE);
+            vk::BufferView view;
             vk::WriteDescriptorSet write(*set_, b.binding, element, 1, type);
-            if (b.buffer->use() == BufferUse::kTexels) {
+            if (b.buffer == nullptr) {
+                write.setPNext(&structure);
+            } else if (b.buffer->use() == BufferUse::kTexels) {
+                view = b.buffer->view();
                 write.setPTexelBufferView(&view);
             } else {
+                info.setBuffer(b.buffer->handle());
                 write.setPBufferInfo(&info);
             }
             handle.updateDescriptorSets(write, {});

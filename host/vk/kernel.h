@@ -12,11 +12,12 @@
 
 namespace duolux {
 
-/// What a kernel binds: buffers by binding number, all in set 0. Neighbours in a list with the same number
-/// are the elements of an array.
+/// What a kernel binds: buffers by binding number, all in set 0, or one acceleration structure in place of a
+/// buffer. Neighbours in a list with the same number are the elements of an array.
 struct Binding {
     std::uint32_t binding;
     const Buffer* buffer;
+    vk::AccelerationStructureKHR structure{};  ///< if `buffer` is null
 };
 
 /// A specialisation constant: bool, or uint32.
@@ -25,7 +26,7 @@ struct Specialization {
     std::uint32_t value;
 };
 
-/// A compute pipeline with its descriptor set. The buffers must outlive it.
+/// A compute pipeline with its descriptor set. What it binds must outlive it.
 class Kernel {
   public:
     /// `name` is for error messages. Throws MachineError if the driver fails to compile it.

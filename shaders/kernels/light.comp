@@ -28,8 +28,6 @@ layout(constant_id = 15) const uint kCameraTransmittance = 2u;
 layout(constant_id = 16) const uint kFilmBands = 1u;
 layout(constant_id = 17) const uint kBandPixels = 1u;
 
-layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
-layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
 layout(binding = kBindingNormals) uniform usamplerBuffer normalTexels;
 layout(binding = kBindingMaterials) uniform usamplerBuffer materialTexels;
 layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
@@ -43,6 +41,7 @@ layout(binding = kBindingFilm, scalar) buffer FilmBlock { uvec2 sums[]; } film[k
 #endif
 layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 
+#include "shaders/kernels/layout.glsl"
 #include "shaders/lib/camera.glsl"
 #include "shaders/lib/film.glsl"
 #include "shaders/lib/light_path.glsl"
@@ -50,10 +49,7 @@ layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 #include "shaders/lib/sampler.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
-#include "shaders/lib/traverse.glsl"
 
-uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
-uvec4 fetchTriangleTexel(uint index) { return texelFetch(triangleTexels, int(index)); }
 uvec4 fetchMaterialTexel(uint index) { return texelFetch(materialTexels, int(index)); }
 uvec4 fetchLightTexel(uint index) { return texelFetch(lightTexels, int(index)); }
 uvec4 fetchNormalTexel(uint index) { return texelFetch(normalTexels, int(index)); }

@@ -21,8 +21,6 @@ layout(constant_id = 12) const uint kDirectLight = 1u;
 layout(constant_id = 13) const bool kHasEmitters = true;
 layout(constant_id = 14) const uint kTeamSize = 8u;
 
-layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
-layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
 layout(binding = kBindingNormals) uniform usamplerBuffer normalTexels;
 layout(binding = kBindingMaterials) uniform usamplerBuffer materialTexels;
 layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
@@ -32,6 +30,7 @@ layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotRe
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
 
+#include "shaders/kernels/layout.glsl"
 #include "shaders/lib/camera.glsl"
 #include "shaders/lib/lights.glsl"
 #include "shaders/lib/polygon_light.glsl"
@@ -39,10 +38,7 @@ layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; }
 #include "shaders/lib/slot_sums.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
-#include "shaders/lib/traverse.glsl"
 
-uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
-uvec4 fetchTriangleTexel(uint index) { return texelFetch(triangleTexels, int(index)); }
 uvec4 fetchMaterialTexel(uint index) { return texelFetch(materialTexels, int(index)); }
 uvec4 fetchLightTexel(uint index) { return texelFetch(lightTexels, int(index)); }
 uvec4 fetchNormalTexel(uint index) { return texelFetch(normalTexels, int(index)); }

@@ -10,19 +10,18 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kLeaveTraversal = 4u;
 layout(constant_id = 2) const uint kLeaveNodes = 3u;
 layout(constant_id = 3) const uint kMode = 0u;
+#ifdef DUOLUX_RAY_QUERY
+const bool kCount = false;  // the driver does not tell
+#else
 layout(constant_id = 4) const bool kCount = false;
+#endif
 
-layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
-layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
 layout(binding = kBindingRays) uniform usamplerBuffer rayTexels;
 layout(binding = kBindingHits, scalar) writeonly buffer HitsBlock { TraceHit hits[]; };
 layout(binding = kBindingHits, scalar) buffer CountsBlock { TraceCounts counts; };
 layout(push_constant, scalar) uniform DispatchBlock { TraceDispatch dispatch; };
 
-#include "shaders/lib/traverse.glsl"
-
-uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
-uvec4 fetchTriangleTexel(uint index) { return texelFetch(triangleTexels, int(index)); }
+#include "shaders/kernels/layout.glsl"
 
 const bool kOrdered = kMode == kTraceAllCrossings;
 
@@ -33,6 +32,7 @@ Traversal startRay(uint index) {
                           uintBitsToFloat(t1.w), kMode == kTraceAnyHit);
 }
 
+#ifndef DUOLUX_RAY_QUERY
 // As traverse(), and counts what lanes do and how many steps the subgroup takes for it.
 void traverseCounting(inout Traversal r, inout TraceCounts sums) {
     while (traversalAlive(r)) {
@@ -54,6 +54,7 @@ void traverseCounting(inout Traversal r, inout TraceCounts sums) {
         if (subgroupBallotBitCount(subgroupBallot(traversalAlive(r))) < kLeaveTraversal) break;
     }
 }
+#endif
 
 void main() {
     uint block = gl_GlobalInvocationID.x / gl_SubgroupSize;
@@ -69,11 +70,10 @@ void main() {
     TraceCounts sums = TraceCounts(0u, 0u, 0u, 0u);
 
     while (subgroupBallot(busy) != uvec4(0u)) {
-        if (kCount) {
-            traverseCounting(ray, sums);
-        } else {
-            traverse(ray, kOrdered, kLeaveTraversal, kLeaveNodes);
-        }
+#ifndef DUOLUX_RAY_QUERY
+        if (kCount) traverseCounting(ray, sums);
+#endif
+        if (!kCount) traverse(ray, kOrdered, kLeaveTraversal, kLeaveNodes);
         bool found = ray.triangle != kNoTriangle;
         bool done = busy && !traversalAlive(ray);
         if (kOrdered && done && found) {

@@ -2,20 +2,17 @@
 // resumed: lanes of a subgroup that have found their hit return to be given new rays while the others go on
 // (Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009).
 //
-// The kernel that includes this defines fetchNodeTexel and fetchTriangleTexel.
+// The kernel that includes this defines fetchNodeTexel, and what fetch_triangle.glsl needs.
 #ifndef DUOLUX_LIB_TRAVERSE_GLSL
 #define DUOLUX_LIB_TRAVERSE_GLSL
 
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-#include "shaders/lib/intersect.glsl"
+#include "shaders/lib/fetch_triangle.glsl"
 #include "shaders/shared/bvh_layout.h"
 
 uvec4 fetchNodeTexel(uint index);
-uvec4 fetchTriangleTexel(uint index);
-
-const uint kNoTriangle = 0xffffffffu;
 
 struct Traversal {
     // The ray. Hits are looked for after (tMin, afterPrimitive) in the order of (distance, primitive).
@@ -47,13 +44,6 @@ struct Traversal {
 // function parameters are copied.
 uint stackBase[kMaxTreeDepth];
 uint stackMask[kMaxTreeDepth];
-
-Triangle fetchTriangle(uint index) {
-    uvec4 t0 = fetchTriangleTexel(index * kTriangleTexels);
-    uvec4 t1 = fetchTriangleTexel(index * kTriangleTexels + 1u);
-    uvec4 t2 = fetchTriangleTexel(index * kTriangleTexels + 2u);
-    return Triangle(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t0.w, t1.w);
-}
 
 // Starts at the tree whose root is node `root`.
 Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterPrimitive, float tMax,

@@ -28,6 +28,11 @@ DUOLUX_CONST uint kMaxLeafTriangles = 3u;
 // Node.triangleBase.
 DUOLUX_CONST uint kMetaInner = 0x20u;
 
+// Masks of instances where an acceleration structure of the driver's takes the place of nodes: all triangles,
+// and copies of the emitting ones, which follow behind them.
+DUOLUX_CONST uint kMaskAll = 1u;
+DUOLUX_CONST uint kMaskEmitters = 2u;
+
 #ifdef __cplusplus
 struct WideNode {
     float origin[3];

@@ -8,8 +8,8 @@
 DUOLUX_BEGIN
 
 // Descriptor bindings, all in set 0.
-DUOLUX_CONST uint kBindingNodes = 0u;      // texels: WideNode
-DUOLUX_CONST uint kBindingTriangles = 1u;  // texels: DeviceTriangle
+DUOLUX_CONST uint kBindingNodes = 0u;      // WideNode as texels or storage, or acceleration structure
+DUOLUX_CONST uint kBindingTriangles = 1u;  // DeviceTriangle as texels or storage
 DUOLUX_CONST uint kBindingNormals = 2u;    // texels: DeviceNormals
 DUOLUX_CONST uint kBindingMaterials = 3u;  // texels: DeviceMaterial
 DUOLUX_CONST uint kBindingLights = 4u;     // texels: DeviceLight
@@ -76,7 +76,8 @@ struct PathParams {
     vec2 display;    // the row d of eq. 8
     float inverseQuantum;
     uint lightCount;
-    uint emitterRoot;   // node index of the root of the tree over emitters
+    uint emitterRoot;   // node index of the root of the tree over emitters, or index of the first of their
+                        // triangles where the driver has the tree; 0: there is none
     vec3 emitterLower;  // their bounds, widened a little
     vec3 emitterUpper;
     float imageArea;  // of the image plane at distance 1

@@ -56,7 +56,7 @@ TEST(Baseline, SurvivesItsFileAndKnowsWhatIsBetter) {
     DeviceInfo device;
     device.name = "a device";
     device.driver = "a driver";
-    writeFile(folder / "old.json", benchJson(sample(10.0, 2.0), device, {{"spp", 16.0}}));
+    writeFile(folder / "old.json", benchJson(sample(10.0, 2.0), device, {{"spp", 16.0}}, {}));
     const nlohmann::json json = nlohmann::json::parse(readFile(folder / "old.json"));
     EXPECT_EQ(json["version"], 1);
     EXPECT_EQ(json["settings"]["spp"], 16.0);

@@ -11,6 +11,7 @@
 #include "host/scene/load.h"
 #include "tests/reference/triangles.h"
 #include "tests/support/device.h"
+#include "tests/support/tunings.h"
 
 namespace duolux::test {
 namespace {
@@ -36,41 +37,85 @@ TEST(BuiltinScenes, AreThoseOfTheAssets) {
 /// Each ray by all triangles in double precision: the nearest, any, and all of them.
 class RaySets : public testing::TestWithParam<const char*> {};
 
-TEST_P(RaySets, KernelMeetsWhatBruteForceMeets) {
-    const Scene scene = builtin(GetParam());
-    const DeviceScene deviceScene = uploadScene(device(), scene);
-    const reference::Triangles triangles(scene.geometry);
-    const Bounds bounds = boundsOf(scene.geometry);
+/// Rays of the set for which the kernel and brute force do not agree.
+std::size_t differences(const RaySet& set, const std::vector<shared::TraceHit>& hits,
+                        const Geometry& geometry) {
+    const reference::Triangles triangles(geometry);
+    const Bounds bounds = boundsOf(geometry);
     const double size = glm::length(Vec3(bounds.upper) - Vec3(bounds.lower));
-    std::vector<std::string> names;
-    for (const RaySet& set : makeRaySets(device(), scene, deviceScene, 40, 30)) {
-        names.push_back(set.name);
-        ASSERT_GT(set.rays.size(), 100u) << set.name;
-        TraceKernel kernel(device(), deviceScene, set.mode, set.rays);
-        kernel.run(2);
-        const std::vector<shared::TraceHit> hits = kernel.hits();
-        std::size_t differences = 0;
-        for (std::size_t i = 0; i < set.rays.size(); ++i) {
-            const shared::TraceRay& ray = set.rays[i];
-            std::vector<Crossing> found;
-            triangles.crossings({Vec3(ray.origin), Vec3(ray.direction)}, static_cast<double>(ray.tMax),
-                                reference::Triangles::kNone, reference::Triangles::kNone, found);
-            const bool hit = hits[i].t >= 0.0f;
-            bool same = hit == !found.empty();
-            if (same && hit && set.mode != shared::kTraceAnyHit) {
-                const double off = std::abs(static_cast<double>(hits[i].t) - found.front().distance);
-                same = off < 1e-4 * (size + found.front().distance);
-            }
-            if (same && hit && set.mode == shared::kTraceAllCrossings) {
-                same = static_cast<std::size_t>(hits[i].normal.x) == found.size();
-            }
-            differences += same ? 0 : 1;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+        const shared::TraceRay& ray = set.rays[i];
+        std::vector<Crossing> found;
+        triangles.crossings({Vec3(ray.origin), Vec3(ray.direction)}, static_cast<double>(ray.tMax),
+                            reference::Triangles::kNone, reference::Triangles::kNone, found);
+        const bool hit = hits[i].t >= 0.0f;
+        bool same = hit == !found.empty();
+        if (same && hit && set.mode != shared::kTraceAnyHit) {
+            const double off = std::abs(static_cast<double>(hits[i].t) - found.front().distance);
+            same = off < 1e-4 * (size + found.front().distance);
         }
-        // A ray within rounding of an edge meets one triangle, both or none; and some start in a corner of
-        // the room, on the other wall but for rounding.
-        EXPECT_LE(static_cast<double>(differences), 0.01 * static_cast<double>(set.rays.size())) << set.name;
+        if (same && hit && set.mode == shared::kTraceAllCrossings) {
+            same = static_cast<std::size_t>(hits[i].normal.x) == found.size();
+        }
+        count += same ? 0 : 1;
+    }
+    return count;
+}
+
+TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
+    const Scene scene = builtin(GetParam());
+    const std::vector<RaySet> sets = makeRaySets(device(), scene, uploadScene(device(), scene), 40, 30);
+    std::vector<std::string> names;
+    for (const RaySet& set : sets) {
+        names.push_back(set.name);
+        EXPECT_GT(set.rays.size(), 100u) << set.name;
     }
     EXPECT_THAT(names, testing::ElementsAre("primary", "diffuse", "shadow", "crossings"));
+    for (const TuningChoice& tuning : allTunings(device().info())) {
+        const DeviceScene deviceScene = uploadScene(device(), scene, tuning);
+        for (const RaySet& set : sets) {
+            TraceKernel kernel(device(), deviceScene, set.mode, set.rays);
+            kernel.run(2);
+            // A ray within rounding of an edge meets one triangle, both or none; and some start in a corner
+            // of the room, on the other wall but for rounding.
+            EXPECT_LE(static_cast<double>(differences(set, kernel.hits(), scene.geometry)),
+                      0.01 * static_cast<double>(set.rays.size()))
+                << set.name << ", " << nameOf(tuning);
+        }
+    }
+}
+
+/// Each surface three times: all are met, and no walk ends at a place where two are.
+TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
+    const Scene once = builtin(GetParam());
+    Scene thrice = once;
+    Geometry& geometry = thrice.geometry;
+    for (int copy = 0; copy < 2; ++copy) {
+        for (std::size_t i = 0; i < once.geometry.triangles.size(); ++i) {
+            geometry.triangles.push_back(once.geometry.triangles[i]);
+            geometry.materials.push_back(once.geometry.materials[i]);
+            if (!once.geometry.normals.empty())
+                geometry.normalIndices.push_back(once.geometry.normalIndices[i]);
+        }
+    }
+    const std::vector<RaySet> sets = makeRaySets(device(), once, uploadScene(device(), once), 40, 30);
+    const RaySet& crossings = sets.back();
+    ASSERT_EQ(crossings.mode, shared::kTraceAllCrossings);
+    for (const TuningChoice& tuning : allTunings(device().info())) {
+        const auto trace = [&](const Scene& scene) {
+            const DeviceScene deviceScene = uploadScene(device(), scene, tuning);
+            TraceKernel kernel(device(), deviceScene, crossings.mode, crossings.rays);
+            kernel.run();
+            return kernel.hits();
+        };
+        const std::vector<shared::TraceHit> single = trace(once);
+        const std::vector<shared::TraceHit> triple = trace(thrice);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < single.size(); ++i)
+            wrong += triple[i].t == single[i].t && triple[i].normal.x == 3.0f * single[i].normal.x ? 0 : 1;
+        EXPECT_EQ(wrong, 0u) << nameOf(tuning);
+    }
 }
 
 TEST_P(RaySets, CountsAreThoseOfTheRays) {

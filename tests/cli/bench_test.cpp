@@ -64,6 +64,18 @@ TEST_F(BenchCommand, MeasuresEverythingOnASmallScene) {
     EXPECT_NE(json["program"]["commit"], "");
     EXPECT_EQ(json["settings"],
               nlohmann::json::parse(R"({"width": 16, "height": 16, "spp": 1, "bounces": 16, "repeat": 2})"));
+    EXPECT_EQ(json["tuning"]["cornell"]["layout"], "texel");
+    EXPECT_EQ(json["tuning"]["cornell"]["kernel"], "refilling");
+}
+
+TEST_F(BenchCommand, MeasuresTheLayoutAndKernelAskedFor) {
+    const ProgramResult result = bench({"cornell", "--size", "16x16", "--only", "rays/primary", "--repeat",
+                                        "1", "--layout", "storage", "--kernel", "plain", "--json", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["tuning"]["cornell"]["layout"], "storage");
+    EXPECT_EQ(json["tuning"]["cornell"]["kernel"], "plain");
+    EXPECT_EQ(json["tuning"]["cornell"]["leave_traversal"], 0);
 }
 
 TEST_F(BenchCommand, ComparesWithABaseline) {

@@ -40,6 +40,7 @@ TEST_F(Command, DevicesShowsTheSoftwareDriverAndTheChoice) {
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("llvmpipe"));
     EXPECT_THAT(result.out, HasSubstr("subgroup size"));
+    EXPECT_THAT(result.out, HasSubstr("ray queries"));
     EXPECT_THAT(result.out, HasSubstr("* "));
 }
 

@@ -44,6 +44,8 @@ std::vector<WrongUsage> wrongUsages() {
         render("IntegratorUnknown", {"--integrator", "lights"}, {"--integrator", "lights", "light"}),
         render("DirectLightOfLightPaths", {"--integrator", "light", "--direct-light", "sampled"},
                {"--direct-light", "--integrator path"}),
+        render("LayoutUnknown", {"--layout", "rays"}, {"--layout", "rays", "ray-query"}),
+        render("KernelUnknown", {"--kernel", "fast"}, {"--kernel", "fast", "refilling"}),
         render("SampleRangeOfOne", {"--sample-range", "4"}, {"--sample-range 4", "A:B"}),
         render("SampleRangeEmpty", {"--sample-range", "4:4"}, {"--sample-range 4:4", "A < B"}),
         render("SampleRangeBeyond", {"--spp", "8", "--sample-range", "4:9"}, {"4:9", "B <= 8"}),

@@ -108,6 +108,43 @@ TEST_F(RenderCommand, ReportHasWhatTheContractAsksFor) {
     EXPECT_FALSE(report["program"]["commit"].get<std::string>().empty());
 }
 
+TEST_F(RenderCommand, LayoutAndKernelAreThoseAskedFor) {
+    const auto tuning = [&](std::vector<std::string> options) {
+        options.insert(options.end(),
+                       {"--size", "8x8", "--spp", "1", "--quiet", "-o", "a.pfm", "--report", "-"});
+        const ProgramResult result = render(options);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return nlohmann::json::parse(result.out)["tuning"];
+    };
+    const nlohmann::json chosen = tuning({});
+    EXPECT_EQ(chosen["layout"], "texel");
+    EXPECT_EQ(chosen["kernel"], "refilling");
+    EXPECT_GT(chosen["lane_paths"], 1);
+    const nlohmann::json other = tuning({"--layout", "storage", "--kernel", "plain"});
+    EXPECT_EQ(other["layout"], "storage");
+    EXPECT_EQ(other["kernel"], "plain");
+}
+
+TEST_F(RenderCommand, RayQueriesAreForDevicesThatHaveThem) {
+    const std::vector<std::string> byRayQuery{"--layout", "ray-query", "--size", "8x8",  "--spp",
+                                              "1",        "--quiet",   "-o",     "a.pfm"};
+    const bool there =
+        runDuolux(folder_.path(), {"devices"}).out.find("ray queries            yes") != std::string::npos;
+    ProgramResult result = render(byRayQuery);
+    EXPECT_EQ(result.status, there ? 0 : 2);
+    if (!there) {
+        EXPECT_THAT(result.err, HasSubstr("duolux: --layout ray-query: llvmpipe"));
+        EXPECT_THAT(result.err, HasSubstr("has no ray queries; expected texel or storage"));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "a.pfm"));
+        return;
+    }
+    std::vector<std::string> refilling = byRayQuery;
+    refilling.insert(refilling.end(), {"--kernel", "refilling"});
+    result = render(refilling);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("expected --kernel plain"));
+}
+
 TEST_F(RenderCommand, ReportOfLightPaths) {
     const ProgramResult result = render({"--integrator", "light", "--size", "32x24", "--spp", "3", "--quiet",
                                          "-o", "a.exr", "--report", "-"});

@@ -1,0 +1,108 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host/base/error.h"
+#include "tests/statistical/films.h"
+#include "tests/statistical/renders.h"
+#include "tests/support/cornell.h"
+#include "tests/support/device.h"
+#include "tests/support/exact_case.h"
+#include "tests/support/tunings.h"
+
+// Where a scene lies in device memory and when lanes get new rays makes no difference to a picture: not a bit
+// where the rays are our own, and no more than rounding where the driver intersects triangles.
+
+namespace duolux::test {
+
+namespace {
+
+struct LayoutCase {
+    std::string name;
+    Scene scene;
+};
+
+std::vector<LayoutCase> layoutCases() {
+    std::vector<LayoutCase> cases;
+    for (const char* preset : {"global", "shadowless", "one-bounce", "local", "mixed"}) {
+        const bool mixed = preset == std::string("mixed");
+        Scene scene = mixed ? mixedCornellBox() : cornellBox();
+        if (!mixed) scene.reflectance = *presetReflectance(preset);
+        scene.render.width = 19;
+        scene.render.height = 13;
+        scene.render.spp = 5;
+        scene.render.bounces = 4;
+        const std::string name = preset == std::string("one-bounce") ? "oneBounce" : preset;
+        cases.push_back({name + "Path", scene});
+        cases.push_back({name + "Light", byLight(scene)});
+    }
+    return cases;
+}
+
+RenderControl controlOf(const TuningChoice& choice) {
+    RenderControl control;
+    control.tuning = choice;
+    return control;
+}
+
+const TuningChoice kByRayQuery{Layout::kRayQuery, {}};
+
+class Layouts : public testing::TestWithParam<LayoutCase> {};
+
+TEST_P(Layouts, OfOurOwnTreeGiveTheSameBits) {
+    const Scene& scene = GetParam().scene;
+    const Film expected = render(device(), scene).film;
+    for (const TuningChoice& choice : allTunings(device().info())) {
+        if (choice.layout == Layout::kRayQuery) continue;
+        const RenderOutput output = render(device(), scene, controlOf(choice));
+        EXPECT_EQ(output.statistics.tuning.layout, choice.layout);
+        EXPECT_EQ(output.statistics.tuning.kernel, choice.kernel);
+        EXPECT_TRUE(sameBits(output.film, expected)) << nameOf(choice);
+    }
+}
+
+/// Rounding of distances and barycentrics moves what follows by as little; only where a ray passes an edge on
+/// its other side do a sample's paths differ, and then no more than two samples do: the means are the same.
+TEST_P(Layouts, OfTheDriversTreeGiveTheSamePicture) {
+    if (!device().info().rayQueries) {
+        EXPECT_THROW(render(device(), GetParam().scene, controlOf(kByRayQuery)), UsageError);
+        return;
+    }
+    Scene scene = GetParam().scene;
+    const bool lightPaths = scene.render.integrator == Integrator::kLight;
+    const RenderOutput ours = render(device(), scene);
+    const RenderOutput theirs = render(device(), scene, controlOf(kByRayQuery));
+    EXPECT_EQ(theirs.statistics.tuning.layout, Layout::kRayQuery);
+    const std::vector<glm::vec3> a = ours.film.resolve().visible;
+    const std::vector<glm::vec3> b = theirs.film.resolve().visible;
+    std::size_t alike = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        alike += glm::length(a[i] - b[i]) <= 1e-3f * glm::length(a[i]) ? 1 : 0;
+    EXPECT_GE(static_cast<double>(alike), 0.95 * static_cast<double>(a.size()));
+    const Renders renders = renderSeeds(scene, 16, 12, 1, controlOf(kByRayQuery));
+    expectAgreement("RayQuery" + GetParam().name, renders, estimatesOf(renderSeeds(scene, 16, 12, 1000)),
+                    {.lightPaths = lightPaths});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Layouts, testing::ValuesIn(layoutCases()),
+                         [](const auto& test) { return test.param.name; });
+
+/// Products of T in the order met, coincident surfaces among them, and emitters behind.
+TEST(RayQuery, MatchesClosedFormsOfCrossings) {
+    std::vector<ExactCase> cases = crossingCases();
+    for (const auto& more : {blockerCases(), lambertCases()})
+        cases.insert(cases.end(), more.begin(), more.end());
+    if (!device().info().rayQueries) {
+        EXPECT_THROW(render(device(), cases.front().scene, controlOf(kByRayQuery)), UsageError);
+        return;
+    }
+    for (const ExactCase& exact : cases) {
+        const Renders renders = renderSeeds(exact.scene, 64, 4, 1, controlOf(kByRayQuery));
+        expectAgreement(exact.name + "RayQuery", renders, exact.expected, {.relative = exact.relative});
+    }
+}
+
+}  // namespace
+
+}  // namespace duolux::test

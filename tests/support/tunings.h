@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/gpu/tuning.h"
+
+namespace duolux::test {
+
+/// Every layout and kernel that a device has.
+inline std::vector<TuningChoice> allTunings(const DeviceInfo& device) {
+    std::vector<TuningChoice> all;
+    for (const Layout layout : {Layout::kTexel, Layout::kStorage}) {
+        for (const KernelKind kernel : {KernelKind::kRefilling, KernelKind::kPlain})
+            all.push_back({layout, kernel});
+    }
+    if (device.rayQueries) all.push_back({Layout::kRayQuery, KernelKind::kPlain});
+    return all;
+}
+
+/// For messages; of one of allTunings.
+inline std::string nameOf(const TuningChoice& choice) {
+    return std::string(duolux::nameOf(*choice.layout)) + ", " + duolux::nameOf(*choice.kernel);
+}
+
+}  // namespace duolux::test
