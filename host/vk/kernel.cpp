@@ -13,6 +13,8 @@ vk::DescriptorType descriptorType(const Binding& binding) {
     switch (binding.buffer->use()) {
         case BufferUse::kTexels:
             return vk::DescriptorType::eUniformTexelBuffer;
+        case BufferUse::kImageTexels:
+            return vk::DescriptorType::eStorageTexelBuffer;
         case BufferUse::kUniform:
             return vk::DescriptorType::eUniformBuffer;
         case BufferUse::kStorage:
@@ -64,7 +66,7 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
             vk::WriteDescriptorSet write(*set_, b.binding, element, 1, type);
             if (b.buffer == nullptr) {
                 write.setPNext(&structure);
-            } else if (b.buffer->use() == BufferUse::kTexels) {
+            } else if (b.buffer->view()) {
                 view = b.buffer->view();
                 write.setPTexelBufferView(&view);
             } else {

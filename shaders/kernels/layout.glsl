@@ -11,8 +11,8 @@
 layout(binding = kBindingNodes, std430) readonly buffer NodesBlock { uvec4 nodeTexels[]; };
 uvec4 fetchNodeTexel(uint index) { return nodeTexels[index]; }
 #else
-layout(binding = kBindingNodes) uniform usamplerBuffer nodeTexels;
-uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
+layout(binding = kBindingNodes, rgba32ui) uniform readonly uimageBuffer nodeTexels;
+uvec4 fetchNodeTexel(uint index) { return imageLoad(nodeTexels, int(index)); }
 #endif
 
 #endif
@@ -21,6 +21,6 @@ uvec4 fetchNodeTexel(uint index) { return texelFetch(nodeTexels, int(index)); }
 layout(binding = kBindingTriangles, std430) readonly buffer TrianglesBlock { uvec4 triangleTexels[]; };
 uvec4 fetchTriangleTexel(uint index) { return triangleTexels[index]; }
 #else
-layout(binding = kBindingTriangles) uniform usamplerBuffer triangleTexels;
-uvec4 fetchTriangleTexel(uint index) { return texelFetch(triangleTexels, int(index)); }
+layout(binding = kBindingTriangles, rgba32ui) uniform readonly uimageBuffer triangleTexels;
+uvec4 fetchTriangleTexel(uint index) { return imageLoad(triangleTexels, int(index)); }
 #endif
