@@ -74,11 +74,10 @@ std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& de
                         {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"}};
     report["settings"] = settings;
     for (const auto& [scene, tuning] : tunings) {
-        report["tuning"][scene] = {{"layout", nameOf(tuning.layout)},
-                                   {"kernel", nameOf(tuning.kernel)},
-                                   {"workgroup_size", tuning.workgroupSize},
-                                   {"leave_traversal", tuning.leaveTraversal},
-                                   {"leave_nodes", tuning.leaveNodes}};
+        report["tuning"][scene] = {
+            {"layout", nameOf(tuning.layout)},        {"kernel", nameOf(tuning.kernel)},
+            {"workgroup_size", tuning.workgroupSize}, {"leave_traversal", tuning.leaveTraversal},
+            {"leave_nodes", tuning.leaveNodes},       {"vote_by_shuffle", tuning.voteByShuffle}};
     }
     report["results"] = Json::array();
     for (const BenchResult& r : results) {

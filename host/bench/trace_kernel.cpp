@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "shaders/embedded.h"
+#include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
 
@@ -43,6 +44,7 @@ TraceKernel::TraceKernel(const Device& device, const DeviceScene& scene, std::ui
               std::vector<Specialization>{{shared::kSpecWorkgroupSize, workgroupSize_},
                                           {shared::kSpecLeaveTraversal, scene.tuning.leaveTraversal},
                                           {shared::kSpecLeaveNodes, scene.tuning.leaveNodes},
+                                          {shared::kSpecVoteByShuffle, scene.tuning.voteByShuffle},
                                           {shared::kSpecTraceMode, mode},
                                           {shared::kSpecCount, count}},
               sizeof(shared::TraceDispatch)),

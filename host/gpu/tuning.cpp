@@ -76,6 +76,8 @@ Tuning chooseTuning(const DeviceInfo& device, const TuningChoice& choice) {
         tuning.leaveTraversal = tuning.lanes / 2;
         tuning.leaveNodes = tuning.lanes * 3 / 8;
     }
+    // Lavapipe compiles ballots to loops over lanes.
+    tuning.voteByShuffle = cpu && tuning.lanes == 8;
     // Threads of a CPU four times over.
     tuning.fewestTeams = cpu ? 4u * workerCount() : 8192u;
     // On lavapipe 64 paths or more are within noise of each other, but 16 are 12 % slower; it ends the loops

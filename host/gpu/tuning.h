@@ -38,6 +38,7 @@ struct Tuning {
     std::uint32_t workgroupSize = 1;  ///< a multiple of that
     /// Lanes leave the traversal when fewer are under way, and the node loop when fewer want nodes.
     std::uint32_t leaveTraversal = 0, leaveNodes = 0;
+    bool voteByShuffle = false;     ///< lanes are 8 and count such others by shuffles, not ballots
     std::uint32_t fewestTeams = 1;  ///< subgroups that keep the device busy
     /// Paths that a lane takes in one dispatch, one after the other, and where they meet all surfaces along
     /// their rays.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/scene/image_plane.h"
+#include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
 
@@ -73,6 +74,7 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
     return {{shared::kSpecWorkgroupSize, tuning.workgroupSize},
             {shared::kSpecLeaveTraversal, tuning.leaveTraversal},
             {shared::kSpecLeaveNodes, tuning.leaveNodes},
+            {shared::kSpecVoteByShuffle, tuning.voteByShuffle},
             {shared::kSpecTransmittance, traits.transmittance},
             {shared::kSpecSecondColumn, traits.secondColumn},
             {shared::kSpecInvisibleScatters, traits.invisibleScatters},

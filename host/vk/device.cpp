@@ -100,9 +100,11 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical) {
     const auto subgroup =
         physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()
             .get<vk::PhysicalDeviceSubgroupProperties>();
+    const vk::SubgroupFeatureFlags needed =
+        vk::SubgroupFeatureFlagBits::eBallot | vk::SubgroupFeatureFlagBits::eShuffle;
     if (!(subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute) ||
-        !(subgroup.supportedOperations & vk::SubgroupFeatureFlagBits::eBallot)) {
-        return "subgroup ballot in compute shaders";
+        (subgroup.supportedOperations & needed) != needed) {
+        return "subgroup ballot and shuffle in compute shaders";
     }
     const auto families = physical.getQueueFamilyProperties();
     if (std::none_of(families.begin(), families.end(), [](const vk::QueueFamilyProperties& family) {

@@ -370,6 +370,7 @@ void main() {
             sums = emptySums();
             path = cameraPath(pixel, filmSample(pixel, sampleIndex));
             ray = traversalStart(0u, path.origin, path.direction, 0.0, kNoTriangle, kInfinity, false);
+            ray.nodesLeft = taken < teamSlots;
         }
     }
 }

@@ -8,11 +8,15 @@
 
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 
 #include "shaders/lib/fetch_triangle.glsl"
 #include "shaders/shared/bvh_layout.h"
 
 uvec4 fetchNodeTexel(uint index);
+
+// Votes of a subgroup of 8 by shuffles, which lavapipe compiles to an instruction each, but ballots to a loop over lanes.
+layout(constant_id = 18) const bool kVoteByShuffle = false;
 
 struct Traversal {
     // The ray. Hits are looked for after (tMin, afterPrimitive) in the order of (distance, primitive).
@@ -160,13 +164,23 @@ void testTriangle(inout Traversal r, bool ordered) {
     r.barycentric = accepted ? h.barycentric : r.barycentric;
 }
 
+// Lanes of the subgroup for which `b` holds, to decide when to leave a loop. A lane that is no longer in the loop must have
+// a ray that is done: how a shuffle sees it is undefined, and on lavapipe it is seen as it was.
+uint laneCount(bool b) {
+    if (!kVoteByShuffle) return subgroupBallotBitCount(subgroupBallot(b));
+    uint count = b ? 1u : 0u;
+    count += subgroupShuffleXor(count, 1u);
+    count += subgroupShuffleXor(count, 2u);
+    return count + subgroupShuffleXor(count, 4u);
+}
+
 // Goes on until the ray is done or fewer than `leaveTraversal` lanes of the subgroup are under way. The node loop is
 // left for triangles when fewer than `leaveNodes` lanes want another node. `ordered`: see testTriangle.
 void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNodes) {
     while (traversalAlive(r)) {
         while (r.triangleMask == 0u && r.nodesLeft) {
             visitNode(r);
-            if (subgroupBallotBitCount(subgroupBallot(r.triangleMask == 0u && r.nodesLeft)) < leaveNodes) break;
+            if (laneCount(r.triangleMask == 0u && r.nodesLeft) < leaveNodes) break;
         }
         if (r.triangleMask != 0u) {
             do testTriangle(r, ordered);
@@ -176,7 +190,7 @@ void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNo
             r.nodesLeft = false;
             r.triangleMask = 0u;
         }
-        if (subgroupBallotBitCount(subgroupBallot(traversalAlive(r))) < leaveTraversal) break;
+        if (laneCount(traversalAlive(r)) < leaveTraversal) break;
     }
 }
 

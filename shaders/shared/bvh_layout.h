@@ -28,6 +28,10 @@ DUOLUX_CONST uint kMaxLeafTriangles = 3u;
 // Node.triangleBase.
 DUOLUX_CONST uint kMetaInner = 0x20u;
 
+// Specialisation constant of all kernels that walk through the tree: lanes of a subgroup of 8 vote by
+// shuffles.
+DUOLUX_CONST uint kSpecVoteByShuffle = 18u;
+
 // Masks of instances where an acceleration structure of the driver's takes the place of nodes: all triangles,
 // and copies of the emitting ones, which follow behind them.
 DUOLUX_CONST uint kMaskAll = 1u;

@@ -39,12 +39,17 @@ TEST(Tuning, FollowsTheKindOfDevice) {
     EXPECT_EQ(cpu.workgroupSize, 8u);
     EXPECT_EQ(cpu.leaveTraversal, 4u);
     EXPECT_EQ(cpu.leaveNodes, 3u);
+    EXPECT_TRUE(cpu.voteByShuffle);
     const Tuning gpu = chooseTuning(deviceOf(DeviceKind::kGpu), {});
     EXPECT_EQ(gpu.layout, Layout::kStorage);
     EXPECT_EQ(gpu.kernel, KernelKind::kRefilling);
     EXPECT_EQ(gpu.lanes, 32u);
     EXPECT_EQ(gpu.workgroupSize, 64u);
     EXPECT_EQ(gpu.leaveTraversal, 16u);
+    EXPECT_FALSE(gpu.voteByShuffle);
+    DeviceInfo wide = deviceOf(DeviceKind::kCpu);
+    wide.subgroupSize = 16;
+    EXPECT_FALSE(chooseTuning(wide, {}).voteByShuffle);
 }
 
 TEST(Tuning, WorkGroupsAreWholeSubgroupsWithinTheLimit) {
