@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "host/base/error.h"
@@ -23,20 +24,33 @@ struct LayoutCase {
     Scene scene;
 };
 
+/// For messages of the test framework.
+void PrintTo(const LayoutCase& c, std::ostream* out) {
+    *out << c.name;
+}
+
 std::vector<LayoutCase> layoutCases() {
     std::vector<LayoutCase> cases;
-    for (const char* preset : {"global", "shadowless", "one-bounce", "local", "mixed"}) {
-        const bool mixed = preset == std::string("mixed");
-        Scene scene = mixed ? mixedCornellBox() : cornellBox();
-        if (!mixed) scene.reflectance = *presetReflectance(preset);
+    const auto add = [&](const std::string& name, Scene scene) {
         scene.render.width = 19;
         scene.render.height = 13;
         scene.render.spp = 5;
         scene.render.bounces = 4;
-        const std::string name = preset == std::string("one-bounce") ? "oneBounce" : preset;
         cases.push_back({name + "Path", scene});
         cases.push_back({name + "Light", byLight(scene)});
+    };
+    for (const char* preset : {"global", "shadowless", "one-bounce", "local", "mixed"}) {
+        const bool mixed = preset == std::string("mixed");
+        Scene scene = mixed ? mixedCornellBox() : cornellBox();
+        if (!mixed) scene.reflectance = *presetReflectance(preset);
+        add(preset == std::string("one-bounce") ? "oneBounce" : preset, scene);
     }
+    // Much light is found by rays that look for emitters alone, in a tree of these.
+    Scene glowing = cornellBox();
+    glowing.reflectance = *presetReflectance("shadowless");
+    for (const CornellMaterial material : {kRed, kGreen, kShort, kTall})
+        glowing.materials[material].emission = {glm::vec3(1.0f), glm::vec3(0.5f), Sides::kBoth};
+    add("glowing", glowing);
     return cases;
 }
 
