@@ -185,7 +185,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
         }
     });
     using Use = BufferUse;
-    const Use treeUse = tuning.layout == Layout::kStorage ? Use::kStorage : Use::kImageTexels;
+    const Use treeUse = tuning.layout == Layout::kStorage ? Use::kStorage : Use::kTexels;
     DeviceScene out{
         .traits = traits,
         .tuning = tuning,

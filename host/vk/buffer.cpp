@@ -18,8 +18,6 @@ constexpr std::uint64_t kTexelBytes = 16;
 vk::BufferUsageFlags usageOf(BufferUse use) {
     switch (use) {
         case BufferUse::kTexels:
-            return vk::BufferUsageFlagBits::eUniformTexelBuffer;
-        case BufferUse::kImageTexels:
             return vk::BufferUsageFlagBits::eStorageTexelBuffer;
         case BufferUse::kUniform:
             return vk::BufferUsageFlagBits::eUniformBuffer;
@@ -44,16 +42,12 @@ std::optional<std::uint32_t> memoryType(const vk::PhysicalDeviceMemoryProperties
     return std::nullopt;
 }
 
-bool isTexels(BufferUse use) {
-    return use == BufferUse::kTexels || use == BufferUse::kImageTexels;
-}
-
 void checkLimits(const DeviceInfo& info, BufferUse use, std::uint64_t size, std::string_view name) {
     const auto fail = [&](std::uint64_t limit) {
         throw MachineError(fmt::format("{} ({}): {} take {} bytes, more than the {} that the device can bind",
                                        info.name, info.driver, name, size, limit));
     };
-    if (isTexels(use) && size / kTexelBytes > info.maxTexelBufferElements) {
+    if (use == BufferUse::kTexels && size / kTexelBytes > info.maxTexelBufferElements) {
         fail(info.maxTexelBufferElements * kTexelBytes);
     }
     if (use == BufferUse::kStorage && size > info.maxStorageBufferRange) fail(info.maxStorageBufferRange);
@@ -104,7 +98,7 @@ Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::Buff
         coherent_ = static_cast<bool>(flags & Flag::eHostCoherent);
         if (flags & Flag::eHostVisible) mapped_ = memory_.mapMemory(0, VK_WHOLE_SIZE);
         if (mapped_ != nullptr && device.info().kind == DeviceKind::kCpu) adviseHugePages(mapped_, size_);
-        if (isTexels(use) && memory != Memory::kStaging) {
+        if (use == BufferUse::kTexels && memory != Memory::kStaging) {
             view_ = vk::raii::BufferView(
                 *device_,
                 vk::BufferViewCreateInfo({}, *buffer_, vk::Format::eR32G32B32A32Uint, 0, VK_WHOLE_SIZE));

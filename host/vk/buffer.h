@@ -12,9 +12,7 @@ namespace duolux {
 
 /// How a buffer is bound in kernels.
 enum class BufferUse : std::uint8_t {
-    kTexels,       ///< usamplerBuffer
-    kImageTexels,  ///< uimageBuffer, rgba32ui: lavapipe reads these in line, but calls a function for the
-                   ///< others
+    kTexels,  ///< uimageBuffer, rgba32ui: lavapipe reads these in line, but calls a function for samplers
     kUniform,
     kStorage,
     kUnbound  ///< not at all
@@ -49,7 +47,7 @@ class Buffer {
                            vk::BufferUsageFlags extra = {});
 
     vk::Buffer handle() const { return *buffer_; }
-    vk::BufferView view() const { return *view_; }  ///< kTexels and kImageTexels: R32G32B32A32 uint
+    vk::BufferView view() const { return *view_; }  ///< kTexels: R32G32B32A32 uint
     std::uint64_t size() const { return size_; }
     std::uint64_t allocated() const { return allocated_; }  ///< bytes of device memory
     BufferUse use() const { return use_; }

@@ -12,8 +12,6 @@ vk::DescriptorType descriptorType(const Binding& binding) {
     if (binding.buffer == nullptr) return vk::DescriptorType::eAccelerationStructureKHR;
     switch (binding.buffer->use()) {
         case BufferUse::kTexels:
-            return vk::DescriptorType::eUniformTexelBuffer;
-        case BufferUse::kImageTexels:
             return vk::DescriptorType::eStorageTexelBuffer;
         case BufferUse::kUniform:
             return vk::DescriptorType::eUniformBuffer;

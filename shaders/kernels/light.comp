@@ -28,9 +28,9 @@ layout(constant_id = 15) const uint kCameraTransmittance = 2u;
 layout(constant_id = 16) const uint kFilmBands = 1u;
 layout(constant_id = 17) const uint kBandPixels = 1u;
 
-layout(binding = kBindingNormals) uniform usamplerBuffer normalTexels;
-layout(binding = kBindingMaterials) uniform usamplerBuffer materialTexels;
-layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
+layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normalTexels;
+layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
+layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { LaneResult results[]; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
@@ -50,9 +50,9 @@ layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
 
-uvec4 fetchMaterialTexel(uint index) { return texelFetch(materialTexels, int(index)); }
-uvec4 fetchLightTexel(uint index) { return texelFetch(lightTexels, int(index)); }
-uvec4 fetchNormalTexel(uint index) { return texelFetch(normalTexels, int(index)); }
+uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
+uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
+uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
 
 LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
 LightMatrix sceneOpaque() { return fromDevice(params.opaque); }

@@ -21,11 +21,11 @@ layout(constant_id = 12) const uint kDirectLight = 1u;
 layout(constant_id = 13) const bool kHasEmitters = true;
 layout(constant_id = 14) const uint kTeamSize = 8u;
 
-layout(binding = kBindingNormals) uniform usamplerBuffer normalTexels;
-layout(binding = kBindingMaterials) uniform usamplerBuffer materialTexels;
-layout(binding = kBindingLights) uniform usamplerBuffer lightTexels;
+layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normalTexels;
+layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
+layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
-layout(binding = kBindingPixels) uniform usamplerBuffer pixelTexels;
+layout(binding = kBindingPixels, rgba32ui) uniform readonly uimageBuffer pixelTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotResult results[]; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
@@ -39,9 +39,9 @@ layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; }
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
 
-uvec4 fetchMaterialTexel(uint index) { return texelFetch(materialTexels, int(index)); }
-uvec4 fetchLightTexel(uint index) { return texelFetch(lightTexels, int(index)); }
-uvec4 fetchNormalTexel(uint index) { return texelFetch(normalTexels, int(index)); }
+uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
+uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
+uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
 
 LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
 LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
@@ -282,7 +282,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
 
 uint pixelOfSlot(uint slot) {
     uint imageSlot = dispatch.firstSlot + slot;
-    return texelFetch(pixelTexels, int(imageSlot >> 2u))[imageSlot & 3u];
+    return imageLoad(pixelTexels, int(imageSlot >> 2u))[imageSlot & 3u];
 }
 
 vec2 filmSample(uint pixel, uint sampleIndex) {

@@ -16,7 +16,7 @@ const bool kCount = false;  // the driver does not tell
 layout(constant_id = 4) const bool kCount = false;
 #endif
 
-layout(binding = kBindingRays) uniform usamplerBuffer rayTexels;
+layout(binding = kBindingRays, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(binding = kBindingHits, scalar) writeonly buffer HitsBlock { TraceHit hits[]; };
 layout(binding = kBindingHits, scalar) buffer CountsBlock { TraceCounts counts; };
 layout(push_constant, scalar) uniform DispatchBlock { TraceDispatch dispatch; };
@@ -26,8 +26,8 @@ layout(push_constant, scalar) uniform DispatchBlock { TraceDispatch dispatch; };
 const bool kOrdered = kMode == kTraceAllCrossings;
 
 Traversal startRay(uint index) {
-    uvec4 t0 = texelFetch(rayTexels, int(2u * index));
-    uvec4 t1 = texelFetch(rayTexels, int(2u * index + 1u));
+    uvec4 t0 = imageLoad(rayTexels, int(2u * index));
+    uvec4 t1 = imageLoad(rayTexels, int(2u * index + 1u));
     return traversalStart(0u, uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t0.w), kNoTriangle,
                           uintBitsToFloat(t1.w), kMode == kTraceAnyHit);
 }
@@ -81,7 +81,7 @@ void main() {
             first.t = crossings == 0u ? ray.t : first.t;
             crossings += 1u;
             first.normal = vec3(float(crossings), 0.0, 0.0);
-            uvec4 t1 = texelFetch(rayTexels, int(2u * index + 1u));
+            uvec4 t1 = imageLoad(rayTexels, int(2u * index + 1u));
             ray = traversalStart(0u, ray.origin, ray.direction, ray.t, ray.primitive, uintBitsToFloat(t1.w), false);
             done = false;
         }

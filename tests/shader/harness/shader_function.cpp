@@ -84,8 +84,8 @@ std::string ShaderLibrary::kernel(std::string_view statements, const std::vector
     for (const auto& [function, bytes] : texels_) {
         ++binding;
         glsl += fmt::format(
-            "layout(binding = {0}) uniform usamplerBuffer texels{0};\n"
-            "uvec4 {1}(uint index) {{ return texelFetch(texels{0}, int(index)); }}\n",
+            "layout(binding = {0}, rgba32ui) uniform readonly uimageBuffer texels{0};\n"
+            "uvec4 {1}(uint index) {{ return imageLoad(texels{0}, int(index)); }}\n",
             binding, function);
     }
     glsl += fmt::format(
