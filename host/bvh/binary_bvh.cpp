@@ -133,8 +133,34 @@ struct Split {
     Extent left, right;
 };
 
+/// Walls of a room lie on both sides of any plane through what is in it: they are split off by their size. An
+/// empty left part if that costs as much as `cost` in units of a primitive's box or more.
+Split splitBySize(std::span<PrimitiveRef> refs, const Box4& bounds, float cost) {
+    constexpr float kLarge = 0.125f;  // of all primitives' box
+    const auto isSmall = [&](const Box4& box) { return box.halfArea() < kLarge * bounds.halfArea(); };
+    Split split;
+    for (const PrimitiveRef& ref : refs) {
+        const Box4 box = boxOf(ref);
+        const bool small = isSmall(box);
+        Extent& extent = small ? split.left : split.right;
+        extent.bounds.grow(box);
+        const Float4 centre = twiceCentre(box);
+        extent.centres.grow({centre, centre});
+        split.leftCount += small ? 1 : 0;
+    }
+    const auto rightCount = static_cast<std::uint32_t>(refs.size()) - split.leftCount;
+    if (split.leftCount == 0 || rightCount == 0 ||
+        split.left.bounds.halfArea() * static_cast<float>(split.leftCount) +
+                split.right.bounds.halfArea() * static_cast<float>(rightCount) >=
+            cost)
+        return {};
+    std::partition(refs.begin(), refs.end(), [&](const PrimitiveRef& ref) { return isSmall(boxOf(ref)); });
+    return split;
+}
+
 /// Partitions by binned SAH; an empty left part if the centres cannot be told apart.
-Split splitByBins(std::span<PrimitiveRef> refs, const Box4& centres) {
+Split splitByBins(std::span<PrimitiveRef> refs, const Extent& extent) {
+    const Box4& centres = extent.centres;
     // So many that looking through them takes a small part of the time that filling them takes.
     const std::size_t binCount = std::min(32 + refs.size() / 16, kMostBins);
     const Float4 size = centres.upper - centres.lower;
@@ -193,6 +219,11 @@ Split splitByBins(std::span<PrimitiveRef> refs, const Box4& centres) {
                 split.left.bounds = left;
             }
         }
+    }
+    constexpr float kPoor = 0.65f;  // of the cost without a split
+    if (bestCost > kPoor * extent.bounds.halfArea() * static_cast<float>(refs.size())) {
+        if (const Split bySize = splitBySize(refs, extent.bounds, bestCost); bySize.leftCount > 0)
+            return bySize;
     }
     if (bestAxis < 0) return split;
     for (std::size_t i = bestBin + 1; i < binCount; ++i)
@@ -279,7 +310,7 @@ class Builder {
             node = {task.extent.bounds.aabb(), static_cast<std::uint32_t>(refs.size()), refs[0].primitive};
             if (refs.size() == 1) continue;
             Split split;
-            if (method_ == SplitMethod::kBinnedSah) split = splitByBins(refs, task.extent.centres);
+            if (method_ == SplitMethod::kBinnedSah) split = splitByBins(refs, task.extent);
             if (split.leftCount == 0) split = splitByMedian(refs, task.extent.centres);
             const std::uint32_t middle = task.begin + split.leftCount;
             node.right = task.node + 2 * split.leftCount;
