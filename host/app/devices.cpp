@@ -5,6 +5,7 @@
 #include "host/app/commands.h"
 #include "host/base/error.h"
 #include "host/vk/device.h"
+#include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
 
@@ -22,8 +23,8 @@ void printDevice(const DeviceInfo& device, bool chosen) {
                static_cast<double>(device.memoryBytes) / kMebibyte);
     fmt::print("     storage buffer range   {:.0f} MiB\n",
                static_cast<double>(device.maxStorageBufferRange) / kMebibyte);
-    fmt::print("     texel buffer           {} texels of 16 bytes ({} triangles at most)\n",
-               device.maxTexelBufferElements, device.maxTexelBufferElements / 3);
+    fmt::print("     texel buffer           {} texels of 16 bytes ({} pairs of triangles at most)\n",
+               device.maxTexelBufferElements, device.maxTexelBufferElements / shared::kPairTexels);
     fmt::print("     ray queries            {}\n", device.rayQueries ? "yes" : "no");
     if (!device.unusable.empty()) fmt::print("     unusable               lacks {}\n", device.unusable);
 }

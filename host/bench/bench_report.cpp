@@ -47,9 +47,9 @@ std::string benchTable(std::span<const BenchResult> results) {
                              number(r.device().median), number(r.seconds()));
         if (r.notes.contains("nodes_per_ray")) {
             perRay += fmt::format("{:<{}} {:>8.1f} {:>8.1f} {:>8.0f}   {:.0f} %, {:.0f} %\n", r.name, width,
-                                  r.notes.at("nodes_per_ray"), r.notes.at("triangles_per_ray"),
+                                  r.notes.at("nodes_per_ray"), r.notes.at("pairs_per_ray"),
                                   r.notes.at("bytes_per_ray"), 100.0 * r.notes.at("lanes_in_nodes"),
-                                  100.0 * r.notes.at("lanes_in_triangles"));
+                                  100.0 * r.notes.at("lanes_in_pairs"));
             continue;
         }
         for (const auto& [note, value] : r.notes)

@@ -96,12 +96,12 @@ std::map<std::string, double> SceneSuite::State::countTraversal(const RaySet& se
     const auto rays = static_cast<double>(set.rays.size());
     const double lanes = deviceScene.tuning.lanes;
     const double bytes =
-        counts.nodes * 16.0 * shared::kNodeTexels + counts.triangles * 16.0 * shared::kTriangleTexels;
+        counts.nodes * 16.0 * shared::kNodeTexels + counts.pairs * 16.0 * shared::kPairTexels;
     return {{"nodes_per_ray", counts.nodes / rays},
-            {"triangles_per_ray", counts.triangles / rays},
+            {"pairs_per_ray", counts.pairs / rays},
             {"bytes_per_ray", bytes / rays},
             {"lanes_in_nodes", counts.nodes / (lanes * std::max(counts.nodeSteps, 1u))},
-            {"lanes_in_triangles", counts.triangles / (lanes * std::max(counts.triangleSteps, 1u))}};
+            {"lanes_in_pairs", counts.pairs / (lanes * std::max(counts.pairSteps, 1u))}};
 }
 
 void SceneSuite::State::addRays() {

@@ -35,23 +35,25 @@ class Audit {
           geometry_(geometry),
           triangles_(triangles),
           nodeSeen_(bvh.nodes.size()),
-          triangleSeen_(bvh.triangles.size()) {}
+          pairSeen_(bvh.pairs.size()) {}
 
     std::vector<std::string> run() {
         visit(0, 1, {});
         for (std::size_t i = 0; i < nodeSeen_.size(); ++i) {
             if (nodeSeen_[i] != 1) fail("node {} is reached {} times", i, nodeSeen_[i]);
         }
-        for (std::size_t i = 0; i < triangleSeen_.size(); ++i) {
-            if (triangleSeen_[i] != 1) fail("leaf entry {} is referred to {} times", i, triangleSeen_[i]);
+        for (std::size_t i = 0; i < pairSeen_.size(); ++i) {
+            if (pairSeen_[i] != 1) fail("leaf entry {} is referred to {} times", i, pairSeen_[i]);
         }
         std::vector<int> uses(geometry_.triangles.size());
-        for (std::uint32_t t : bvh_.triangles) {
-            if (t >= uses.size()) {
-                fail("triangle index {} is out of range", t);
-            } else {
+        for (const TrianglePair& pair : bvh_.pairs) {
+            for (std::uint32_t t : trianglesOf(pair)) {
+                if (t >= uses.size())
+                    return fail("triangle index {} is out of range", t), std::move(problems_);
                 ++uses[t];
             }
+            if (!cornersOf(geometry_, pair))
+                fail("triangles {} and {} have no common edge", pair.first, pair.second);
         }
         for (std::uint32_t t : triangles_)
             --uses[t];
@@ -65,6 +67,10 @@ class Audit {
     }
 
   private:
+    static std::vector<std::uint32_t> trianglesOf(const TrianglePair& pair) {
+        return pair.isSingle() ? std::vector{pair.first} : std::vector{pair.first, pair.second};
+    }
+
     template <typename... Args>
     void fail(fmt::format_string<Args...> format, Args&&... args) {
         if (problems_.size() < 32) problems_.push_back(fmt::format(format, std::forward<Args>(args)...));
@@ -96,20 +102,21 @@ class Audit {
             if (unary != 1 && unary != 3 && unary != 7)
                 fail("node {} slot {}: meta {:#x}", index, slot, meta);
             for (int i = 0; i < std::popcount(unary); ++i)
-                leafEntry(node.triangleBase + (meta & 31) + static_cast<std::uint32_t>(i), boxes);
+                leafEntry(node.pairBase + (meta & 31) + static_cast<std::uint32_t>(i), boxes);
         }
     }
 
     void leafEntry(std::size_t entry, const std::vector<Box>& boxes) {
-        if (entry >= bvh_.triangles.size()) return fail("leaf entry {} is out of range", entry);
-        ++triangleSeen_[entry];
-        const std::uint32_t triangle = bvh_.triangles[entry];
-        if (triangle >= geometry_.triangles.size()) return;
-        for (int k = 0; k < 3; ++k) {
-            const glm::dvec3 p = geometry_.positions[geometry_.triangles[triangle][k]];
-            for (std::size_t level = 0; level < boxes.size(); ++level) {
-                if (!boxes[level].contains(p))
-                    fail("triangle {} sticks out of its box at level {}", triangle, level);
+        if (entry >= bvh_.pairs.size()) return fail("leaf entry {} is out of range", entry);
+        ++pairSeen_[entry];
+        for (const std::uint32_t triangle : trianglesOf(bvh_.pairs[entry])) {
+            if (triangle >= geometry_.triangles.size()) continue;
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec3 p = geometry_.positions[geometry_.triangles[triangle][k]];
+                for (std::size_t level = 0; level < boxes.size(); ++level) {
+                    if (!boxes[level].contains(p))
+                        fail("triangle {} sticks out of its box at level {}", triangle, level);
+                }
             }
         }
     }
@@ -117,7 +124,7 @@ class Audit {
     const WideBvh& bvh_;
     const Geometry& geometry_;
     std::span<const std::uint32_t> triangles_;
-    std::vector<int> nodeSeen_, triangleSeen_;
+    std::vector<int> nodeSeen_, pairSeen_;
     std::uint32_t deepest_ = 0;
     std::vector<std::string> problems_;
 };

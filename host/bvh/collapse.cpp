@@ -54,7 +54,7 @@ float CollapsePlan::relativeArea(const BinaryBvh::Node& node) const {
 
 float CollapsePlan::cost(std::uint32_t node, int trees) const {
     const BinaryBvh::Node& n = bvh_.nodes[node];
-    if (n.count == 1) return relativeArea(n) * kTriangleCost;
+    if (n.count == 1) return relativeArea(n) * kPairCost;
     return records_[recordOf_[node]].cost[static_cast<std::size_t>(trees - 1)];
 }
 
@@ -94,9 +94,8 @@ void CollapsePlan::compute(std::uint32_t node) {
     };
     const float area = relativeArea(n);
     const float innerCost = distribute(8, record.split[7]) + area;
-    const float leafCost = n.count <= shared::kMaxLeafTriangles
-                               ? area * kTriangleCost * static_cast<float>(n.count)
-                               : std::numeric_limits<float>::max();
+    const float leafCost = n.count <= shared::kMaxLeafPairs ? area * kPairCost * static_cast<float>(n.count)
+                                                            : std::numeric_limits<float>::max();
     record.split[0] = leafCost <= innerCost ? kLeaf : kInner;
     record.cost[0] = std::min(leafCost, innerCost);
     for (int i = 1; i < 7; ++i) {

@@ -12,8 +12,8 @@ namespace duolux {
 /// cost, by dynamic programming (Ylitie, Karras, Laine 2017, section 3.1).
 class CollapsePlan {
   public:
-    /// Cost of one triangle test in units of one node visit.
-    static constexpr float kTriangleCost = 0.3f;
+    /// Cost of one test of a pair of triangles in units of one node visit.
+    static constexpr float kPairCost = 0.4f;
 
     explicit CollapsePlan(const BinaryBvh& bvh);
 

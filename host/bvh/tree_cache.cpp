@@ -34,7 +34,7 @@ std::optional<TreeCache> TreeCache::ofUser() {
 WideBvh TreeCache::tree(const Geometry& geometry, std::span<const std::uint32_t> triangles) const {
     const TreeKey key = treeKey(geometry, triangles);
     const fs::path path = folder_ / fmt::format("{:016x}{:016x}.tree", key[1], key[0]);
-    if (std::optional<WideBvh> kept = readTree(path, key, triangles)) {
+    if (std::optional<WideBvh> kept = readTree(path, key, geometry, triangles)) {
         std::error_code ignored;
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
         return std::move(*kept);

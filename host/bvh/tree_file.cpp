@@ -17,18 +17,18 @@ namespace duolux {
 
 namespace {
 
-/// Of a file: then come the nodes, then the triangles.
+/// Of a file: then come the nodes, then the pairs.
 struct Header {
     char magic[8];
     TreeKey key;
-    std::uint64_t nodes, triangles;
+    std::uint64_t nodes, pairs;
     double sahCost;
     std::uint64_t depth;
     TreeKey checksum;  ///< of the rest of the file
 };
 static_assert(sizeof(Header) == 72 && std::is_trivially_copyable_v<Header>);
 
-constexpr char kMagic[8] = {'D', 'u', 'o', 'l', 'u', 'x', 'T', '1'};
+constexpr char kMagic[8] = {'D', 'u', 'o', 'l', 'u', 'x', 'T', '2'};
 
 /// XXH3 of 128 bits (Collet 2020): as fast as memory.
 class Hash {
@@ -55,7 +55,7 @@ TreeKey checksumOf(Header header, const WideBvh& tree) {
     Hash hash;
     hash.add(std::span<const Header>(&header, 1));
     hash.add(std::span<const shared::WideNode>(tree.nodes));
-    hash.add(std::span<const std::uint32_t>(tree.triangles));
+    hash.add(std::span<const TrianglePair>(tree.pairs));
     return hash.result();
 }
 
@@ -82,24 +82,31 @@ bool readAll(int file, std::span<T> values) {
     return passAll(::read, file, reinterpret_cast<char*>(values.data()), values.size_bytes());
 }
 
-/// Whether the leaves hold each of the triangles once.
-bool holdsJust(const WideBvh& tree, std::span<const std::uint32_t> triangles) {
+/// Whether the leaves hold each of the triangles once, and neighbours in pairs.
+bool holdsJust(const WideBvh& tree, const Geometry& geometry, std::span<const std::uint32_t> triangles) {
     const std::uint32_t most = *std::max_element(triangles.begin(), triangles.end());
     std::vector<char> wanted(std::size_t{most} + 1, 0);
     for (const std::uint32_t triangle : triangles)
         wanted[triangle] = 1;
-    for (const std::uint32_t triangle : tree.triangles) {
+    std::size_t found = 0;
+    const auto find = [&](std::uint32_t triangle) {
         if (triangle > most || wanted[triangle] == 0) return false;
         wanted[triangle] = 0;
+        ++found;
+        return true;
+    };
+    for (const TrianglePair& pair : tree.pairs) {
+        if (!find(pair.first)) return false;
+        if (!pair.isSingle() && (!find(pair.second) || !cornersOf(geometry, pair))) return false;
     }
-    return tree.triangles.size() == triangles.size();
+    return found == triangles.size();
 }
 
 /// Whether a traversal ends, and stays within the arrays and its stack. Children come after their parents.
 bool isTree(const WideBvh& tree) {
     const std::size_t nodes = tree.nodes.size();
     std::vector<std::uint8_t> level(nodes, 0);
-    std::vector<char> entrySeen(tree.triangles.size(), 0);
+    std::vector<char> entrySeen(tree.pairs.size(), 0);
     level[0] = 1;
     std::uint32_t deepest = 0;
     for (std::size_t i = 0; i < nodes; ++i) {
@@ -120,7 +127,7 @@ bool isTree(const WideBvh& tree) {
             if (unary != 1 && unary != 3 && unary != 7) return false;
             for (int k = 0; k < std::popcount(unary); ++k) {
                 const std::uint64_t entry =
-                    std::uint64_t{node.triangleBase} + (meta & 31) + static_cast<unsigned>(k);
+                    std::uint64_t{node.pairBase} + (meta & 31) + static_cast<unsigned>(k);
                 if (entry >= entrySeen.size() || entrySeen[entry] != 0) return false;
                 entrySeen[entry] = 1;
             }
@@ -146,25 +153,26 @@ TreeKey treeKey(const Geometry& geometry, std::span<const std::uint32_t> triangl
     hash.add(std::span<const std::uint64_t>(sizes));
     hash.add(std::span<const glm::vec3>(geometry.positions));
     hash.add(std::span<const glm::uvec3>(geometry.triangles));
+    hash.add(std::span<const std::uint32_t>(geometry.materials));
     hash.add(triangles);
     return hash.result();
 }
 
 std::uint64_t treeFileBytes(const WideBvh& tree) {
-    return sizeof(Header) + std::span(tree.nodes).size_bytes() + std::span(tree.triangles).size_bytes();
+    return sizeof(Header) + std::span(tree.nodes).size_bytes() + std::span(tree.pairs).size_bytes();
 }
 
 bool writeTree(int file, const WideBvh& tree, const TreeKey& key) {
-    Header header{{}, key, tree.nodes.size(), tree.triangles.size(), tree.sahCost, tree.depth, {}};
+    Header header{{}, key, tree.nodes.size(), tree.pairs.size(), tree.sahCost, tree.depth, {}};
     std::memcpy(header.magic, kMagic, sizeof(kMagic));
     header.checksum = checksumOf(header, tree);
     return writeAll(file, std::span<const Header>(&header, 1)) &&
            writeAll(file, std::span<const shared::WideNode>(tree.nodes)) &&
-           writeAll(file, std::span<const std::uint32_t>(tree.triangles));
+           writeAll(file, std::span<const TrianglePair>(tree.pairs));
 }
 
 std::optional<WideBvh> readTree(const std::filesystem::path& path, const TreeKey& key,
-                                std::span<const std::uint32_t> triangles) {
+                                const Geometry& geometry, std::span<const std::uint32_t> triangles) {
     // What is no file must not keep this waiting.
     const OpenFile file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     struct stat status {};
@@ -172,19 +180,18 @@ std::optional<WideBvh> readTree(const std::filesystem::path& path, const TreeKey
     Header header{};
     if (!readAll(file.descriptor, std::span<Header>(&header, 1))) return {};
     if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0 || header.key != key) return {};
-    if (header.triangles != triangles.size() || header.nodes == 0 || header.nodes > triangles.size())
-        return {};
+    if (header.pairs > triangles.size() || header.nodes == 0 || header.nodes > triangles.size()) return {};
     WideBvh tree;
     tree.depth = static_cast<std::uint32_t>(header.depth);
     tree.sahCost = header.sahCost;
     const std::uint64_t bytes =
-        sizeof(Header) + header.nodes * sizeof(shared::WideNode) + header.triangles * sizeof(std::uint32_t);
+        sizeof(Header) + header.nodes * sizeof(shared::WideNode) + header.pairs * sizeof(TrianglePair);
     if (static_cast<std::uint64_t>(status.st_size) != bytes) return {};
     tree.nodes.resize(header.nodes);
-    tree.triangles.resize(header.triangles);
+    tree.pairs.resize(header.pairs);
     if (!readAll(file.descriptor, std::span(tree.nodes)) ||
-        !readAll(file.descriptor, std::span(tree.triangles)) || checksumOf(header, tree) != header.checksum ||
-        !holdsJust(tree, triangles) || !isTree(tree))
+        !readAll(file.descriptor, std::span(tree.pairs)) || checksumOf(header, tree) != header.checksum ||
+        !holdsJust(tree, geometry, triangles) || !isTree(tree))
         return {};
     return tree;
 }

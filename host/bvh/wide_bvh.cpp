@@ -23,14 +23,6 @@ namespace {
 // node's size) cannot make a ray miss a box whose face coincides with a step.
 constexpr float kQuantisationMargin = 1.0f / 32.0f;
 
-PrimitiveRef refOf(const Geometry& geometry, std::uint32_t triangle) {
-    const glm::uvec3 index = geometry.triangles[triangle];
-    const glm::vec3 a = geometry.positions[index.x];
-    const glm::vec3 b = geometry.positions[index.y];
-    const glm::vec3 c = geometry.positions[index.z];
-    return {glm::min(a, glm::min(b, c)), triangle, glm::max(a, glm::max(b, c)), 0};
-}
-
 /// Places children in slots so that the sum over children of centre . direction(slot) is large: greedy
 /// assignment.
 std::array<int, 8> assignSlots(std::span<const Aabb> children, const Aabb& parent) {
@@ -73,17 +65,18 @@ struct Branch {
     std::uint32_t binaryNode;  // its root
     std::uint32_t wideNode;    // the place for its root, which is left empty
     std::uint32_t level;       // of its root
-    // How much of what is above comes before its other nodes and its triangles.
-    std::uint32_t nodesBefore, trianglesBefore;
+    // How much of what is above comes before its other nodes and its pairs.
+    std::uint32_t nodesBefore, pairsBefore;
 };
 
 /// Writes a wide tree depth first, but for the inner children of a node, which are consecutive.
 class Emitter {
   public:
-    Emitter(const BinaryBvh& binary, const CollapsePlan& plan) : binary_(binary), plan_(plan) {}
+    Emitter(const BinaryBvh& binary, const CollapsePlan& plan, std::span<const TrianglePair> pairs)
+        : binary_(binary), plan_(plan), pairs_(pairs) {}
 
-    /// The tree below a binary node. Subtrees of at most `branchTriangles` become branches.
-    WideBvh emit(std::uint32_t root, std::uint32_t branchTriangles = 0) {
+    /// The tree below a binary node. Subtrees of at most `branchPairs` become branches.
+    WideBvh emit(std::uint32_t root, std::uint32_t branchPairs = 0) {
         struct Work {
             std::uint32_t binaryNode, wideNode, level;
         };
@@ -92,10 +85,10 @@ class Emitter {
         while (!stack.empty()) {
             const auto [binaryNode, wideNode, level] = stack.back();
             stack.pop_back();
-            if (binary_.nodes[binaryNode].count <= branchTriangles) {
+            if (binary_.nodes[binaryNode].count <= branchPairs) {
                 branches_.push_back({binaryNode, wideNode, level,
                                      static_cast<std::uint32_t>(out_.nodes.size()),
-                                     static_cast<std::uint32_t>(out_.triangles.size())});
+                                     static_cast<std::uint32_t>(out_.pairs.size())});
                 continue;
             }
             out_.depth = std::max(out_.depth, level);
@@ -128,12 +121,12 @@ class Emitter {
 
         shared::WideNode node{};
         node.childBase = static_cast<std::uint32_t>(out_.nodes.size());
-        node.triangleBase = static_cast<std::uint32_t>(out_.triangles.size());
+        node.pairBase = static_cast<std::uint32_t>(out_.pairs.size());
         for (int axis = 0; axis < 3; ++axis)
             quantiseAxis(node, bounds, axis, {boxes.data(), children.count}, slotOf);
 
         Inner inner;
-        std::uint32_t triangleOffset = 0;
+        std::uint32_t pairOffset = 0;
         for (int slot = 0; slot < 8; ++slot) {
             for (std::size_t c = 0; c < children.count; ++c) {
                 if (slotOf[c] != slot) continue;
@@ -142,10 +135,10 @@ class Emitter {
                     node.innerMask = static_cast<std::uint8_t>(node.innerMask | 1 << slot);
                     inner.binaryNode[inner.count++] = children.node[c];
                 } else {
-                    const std::uint32_t count = appendTriangles(children.node[c]);
+                    const std::uint32_t count = appendPairs(children.node[c]);
                     const std::uint32_t unary = (1u << count) - 1;
-                    node.meta[slot] = static_cast<std::uint8_t>(unary << 5 | triangleOffset);
-                    triangleOffset += count;
+                    node.meta[slot] = static_cast<std::uint8_t>(unary << 5 | pairOffset);
+                    pairOffset += count;
                 }
             }
         }
@@ -190,30 +183,31 @@ class Emitter {
         }
     }
 
-    std::uint32_t appendTriangles(std::uint32_t binaryNode) {
+    std::uint32_t appendPairs(std::uint32_t binaryNode) {
         // The leaves of a subtree of n primitives are among the 2n - 1 nodes from its root on.
         const std::uint32_t count = binary_.nodes[binaryNode].count;
         for (std::uint32_t i = binaryNode; i < binaryNode + 2 * count - 1; ++i) {
-            if (binary_.nodes[i].count == 1) out_.triangles.push_back(binary_.nodes[i].right);
+            if (binary_.nodes[i].count == 1) out_.pairs.push_back(pairs_[binary_.nodes[i].right]);
         }
         return count;
     }
 
     const BinaryBvh& binary_;
     const CollapsePlan& plan_;
+    const std::span<const TrianglePair> pairs_;
     WideBvh out_;
     std::vector<Branch> branches_;
 };
 
 /// Puts branches into the tree above them: the result is that of emitting all at once, but for indices of
-/// nodes that have no inner children or no triangles.
+/// nodes that have no inner children or no pairs.
 class Grafter {
   public:
     Grafter(const WideBvh& top, const std::vector<Branch>& branches, const std::vector<WideBvh>& parts)
-        : top_(top), branches_(branches), parts_(parts), nodesOf_{0}, trianglesOf_{0} {
+        : top_(top), branches_(branches), parts_(parts), nodesOf_{0}, pairsOf_{0} {
         for (const WideBvh& part : parts) {
             nodesOf_.push_back(nodesOf_.back() + static_cast<std::uint32_t>(part.nodes.size()) - 1);
-            trianglesOf_.push_back(trianglesOf_.back() + static_cast<std::uint32_t>(part.triangles.size()));
+            pairsOf_.push_back(pairsOf_.back() + static_cast<std::uint32_t>(part.pairs.size()));
         }
     }
 
@@ -221,15 +215,15 @@ class Grafter {
         WideBvh out;
         out.depth = top_.depth;
         out.nodes.resize(top_.nodes.size() + nodesOf_.back());
-        out.triangles.resize(top_.triangles.size() + trianglesOf_.back());
+        out.pairs.resize(top_.pairs.size() + pairsOf_.back());
         for (std::uint32_t i = 0; i < top_.nodes.size(); ++i) {
             shared::WideNode node = top_.nodes[i];
             node.childBase = nodePlace(node.childBase);
-            node.triangleBase = trianglePlace(node.triangleBase);
+            node.pairBase = pairPlace(node.pairBase);
             out.nodes[nodePlace(i)] = node;
         }
-        for (std::uint32_t i = 0; i < top_.triangles.size(); ++i)
-            out.triangles[trianglePlace(i)] = top_.triangles[i];
+        for (std::uint32_t i = 0; i < top_.pairs.size(); ++i)
+            out.pairs[pairPlace(i)] = top_.pairs[i];
         for (std::size_t b = 0; b < branches_.size(); ++b)
             out.depth = std::max(out.depth, branches_[b].level - 1 + parts_[b].depth);
         parallelFor(branches_.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -242,23 +236,22 @@ class Grafter {
   private:
     void place(std::size_t b, WideBvh& out) const {
         const std::uint32_t firstNode = branches_[b].nodesBefore + nodesOf_[b] - 1;  // of a root among them
-        const std::uint32_t firstTriangle = branches_[b].trianglesBefore + trianglesOf_[b];
+        const std::uint32_t firstPair = branches_[b].pairsBefore + pairsOf_[b];
         for (std::uint32_t i = 0; i < parts_[b].nodes.size(); ++i) {
             shared::WideNode node = parts_[b].nodes[i];
             node.childBase += firstNode;
-            node.triangleBase += firstTriangle;
+            node.pairBase += firstPair;
             out.nodes[i == 0 ? nodePlace(branches_[b].wideNode) : firstNode + i] = node;
         }
-        std::copy(parts_[b].triangles.begin(), parts_[b].triangles.end(),
-                  out.triangles.begin() + firstTriangle);
+        std::copy(parts_[b].pairs.begin(), parts_[b].pairs.end(), out.pairs.begin() + firstPair);
     }
 
     /// Where an index into the top goes: behind the branches that come before it.
     std::uint32_t nodePlace(std::uint32_t i) const {
         return i + nodesOf_[branchesUpTo(i, &Branch::nodesBefore)];
     }
-    std::uint32_t trianglePlace(std::uint32_t i) const {
-        return i + trianglesOf_[branchesUpTo(i, &Branch::trianglesBefore)];
+    std::uint32_t pairPlace(std::uint32_t i) const {
+        return i + pairsOf_[branchesUpTo(i, &Branch::pairsBefore)];
     }
     std::size_t branchesUpTo(std::uint32_t i, std::uint32_t Branch::*before) const {
         const auto after = std::upper_bound(branches_.begin(), branches_.end(), i,
@@ -269,32 +262,29 @@ class Grafter {
     const WideBvh& top_;
     const std::vector<Branch>& branches_;
     const std::vector<WideBvh>& parts_;
-    std::vector<std::uint32_t> nodesOf_, trianglesOf_;  // of the branches before, but for their roots
+    std::vector<std::uint32_t> nodesOf_, pairsOf_;  // of the branches before, but for their roots
 };
 
-WideBvh emit(const BinaryBvh& binary, const CollapsePlan& plan) {
-    constexpr std::uint32_t kBranchTriangles = 8192;
-    if (binary.nodes[0].count <= kBranchTriangles) return Emitter(binary, plan).emit(0);
-    Emitter above(binary, plan);
-    const WideBvh top = above.emit(0, kBranchTriangles);
+WideBvh emit(const BinaryBvh& binary, const CollapsePlan& plan, std::span<const TrianglePair> pairs) {
+    constexpr std::uint32_t kBranchPairs = 8192;
+    if (binary.nodes[0].count <= kBranchPairs) return Emitter(binary, plan, pairs).emit(0);
+    Emitter above(binary, plan, pairs);
+    const WideBvh top = above.emit(0, kBranchPairs);
     std::vector<WideBvh> parts(above.branches().size());
     parallelFor(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            parts[i] = Emitter(binary, plan).emit(above.branches()[i].binaryNode);
+            parts[i] = Emitter(binary, plan, pairs).emit(above.branches()[i].binaryNode);
     });
     return Grafter(top, above.branches(), parts).graft();
 }
 
 WideBvh build(const Geometry& geometry, std::span<const std::uint32_t> triangles, SplitMethod method) {
-    std::vector<PrimitiveRef> refs(triangles.size());
-    parallelFor(refs.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            refs[i] = refOf(geometry, triangles[i]);
-    });
+    const std::vector<TrianglePair> pairs = pairTriangles(geometry, triangles);
+    std::vector<PrimitiveRef> refs = boxesOf(geometry, pairs);
     const BinaryBvh binary = buildBinaryBvh(refs, method);
     refs = {};
     const CollapsePlan plan(binary);
-    WideBvh wide = emit(binary, plan);
+    WideBvh wide = emit(binary, plan, pairs);
     wide.sahCost = plan.sahCost();
     return wide;
 }

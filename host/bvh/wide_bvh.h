@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/bvh/pairs.h"
 #include "host/scene/scene.h"
 #include "shaders/shared/bvh_layout.h"
 
@@ -13,9 +14,9 @@ namespace duolux {
 /// The tree as the device traverses it. Node 0 is the root.
 struct WideBvh {
     std::vector<shared::WideNode> nodes;
-    std::vector<std::uint32_t> triangles;  ///< indices into Geometry::triangles, in the order leaves refer to
-    std::uint32_t depth = 0;               ///< levels of nodes
-    double sahCost = 0.0;  ///< expected node visits + kTriangleCost * triangle tests of a random ray
+    std::vector<TrianglePair> pairs;  ///< in the order leaves refer to
+    std::uint32_t depth = 0;          ///< levels of nodes
+    double sahCost = 0.0;             ///< expected node visits + kPairCost * pair tests of a random ray
 };
 
 /// Builds over the given triangles of the geometry (at least one; each at most once).
@@ -24,9 +25,9 @@ WideBvh buildWideBvh(const Geometry& geometry, std::span<const std::uint32_t> tr
 /// Over all triangles.
 WideBvh buildWideBvh(const Geometry& geometry);
 
-/// Checks every invariant of the layout: each of `triangles` in exactly one leaf, child boxes contain what is
-/// below them, indices in range, each node reached once, depth within kMaxTreeDepth. Empty if all hold, else
-/// what does not.
+/// Checks every invariant of the layout: each of `triangles` in exactly one pair of one leaf, pairs with a
+/// common edge, child boxes contain what is below them, indices in range, each node reached once, depth
+/// within kMaxTreeDepth. Empty if all hold, else what does not.
 std::vector<std::string> auditWideBvh(const WideBvh& bvh, const Geometry& geometry,
                                       std::span<const std::uint32_t> triangles);
 

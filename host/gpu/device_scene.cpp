@@ -34,66 +34,85 @@ bool isSmooth(const Geometry& geometry, std::uint32_t triangle) {
     return !geometry.normals.empty() && geometry.normalIndices[triangle].x != Geometry::kNoNormal;
 }
 
-shared::DeviceTriangle deviceTriangle(const Geometry& geometry, std::uint32_t triangle) {
-    const glm::uvec3 index = geometry.triangles[triangle];
-    const std::uint32_t smooth = isSmooth(geometry, triangle) ? shared::kTriangleSmooth : 0u;
-    return {geometry.positions[index.x], triangle,
-            geometry.positions[index.y], geometry.materials[triangle] | smooth,
-            geometry.positions[index.z], 0};
+std::uint32_t materialFlags(const Geometry& geometry, std::uint32_t triangle) {
+    return geometry.materials[triangle] | (isSmooth(geometry, triangle) ? shared::kTriangleSmooth : 0u);
 }
 
-shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t triangle) {
-    if (!isSmooth(geometry, triangle)) return {};
+shared::DevicePair devicePair(const Geometry& geometry, const TrianglePair& pair,
+                              const PairCorners& corners) {
+    const auto position = [&](std::size_t corner) { return geometry.positions[corners.positions[corner]]; };
+    const std::uint32_t second = pair.isSingle() ? pair.first : pair.second;
+    return {position(0), pair.first,
+            position(1), materialFlags(geometry, second),
+            position(2), materialFlags(geometry, pair.first),
+            position(3), pair.second};
+}
+
+/// `turn`: the corner that comes first.
+shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t triangle, std::uint32_t turn) {
+    if (triangle == TrianglePair::kNone || !isSmooth(geometry, triangle)) return {};
     const glm::uvec3 index = geometry.normalIndices[triangle];
-    return {{octahedralEncode(geometry.normals[index.x]), octahedralEncode(geometry.normals[index.y]),
-             octahedralEncode(geometry.normals[index.z])},
-            0};
+    const auto normal = [&](std::uint32_t corner) {
+        return octahedralEncode(geometry.normals[index[static_cast<int>((turn + corner) % 3)]]);
+    };
+    return {{normal(0), normal(1), normal(2)}, 0};
 }
 
 /// The tree over all triangles, and behind it the one over emitters with copies of them.
 struct Trees {
     std::vector<shared::WideNode> nodes;
-    std::vector<std::uint32_t> triangles;  // of the geometry, in the order of the leaves
+    std::vector<TrianglePair> pairs;  // in the order of the leaves
     std::uint32_t emitterRoot = 0;
 
     std::uint64_t largestBuffer() const {
-        return std::max(nodes.size() * sizeof(shared::WideNode),
-                        triangles.size() * sizeof(shared::DeviceTriangle));
+        return std::max(nodes.size() * sizeof(shared::WideNode), pairs.size() * sizeof(shared::DevicePair));
     }
 };
 
 /// What the driver is to build trees over: all triangles, and behind them copies of the emitters.
 Trees listTriangles(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
     Trees trees;
-    trees.triangles.resize(geometry.triangles.size());
-    std::iota(trees.triangles.begin(), trees.triangles.end(), 0u);
+    std::vector<std::uint32_t> all(geometry.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    trees.pairs = pairTriangles(geometry, all);
     if (emitters.empty()) return trees;
-    trees.emitterRoot = static_cast<std::uint32_t>(trees.triangles.size());
-    trees.triangles.insert(trees.triangles.end(), emitters.begin(), emitters.end());
+    trees.emitterRoot = 2 * static_cast<std::uint32_t>(trees.pairs.size());
+    const std::vector<TrianglePair> second = pairTriangles(geometry, emitters);
+    trees.pairs.insert(trees.pairs.end(), second.begin(), second.end());
     return trees;
 }
 
 AccelerationStructure buildStructure(const Device& device, const Buffer& buffer, const Trees& trees) {
-    const auto count = static_cast<std::uint32_t>(trees.triangles.size());
-    const std::uint32_t first = trees.emitterRoot;
-    std::vector<AccelerationStructure::Part> parts{{0, first > 0 ? first : count, shared::kMaskAll}};
-    if (first > 0) parts.push_back({first, count - first, shared::kMaskEmitters});
-    return {device, buffer, parts};
+    const auto count = static_cast<std::uint32_t>(trees.pairs.size());
+    const std::uint32_t emitters = trees.emitterRoot > 0 ? count - trees.emitterRoot / 2 : 0;
+    const auto part = [](std::uint32_t firstPair, std::uint32_t pairs, std::uint32_t mask) {
+        return AccelerationStructure::Part{shared::kPairTexels * firstPair, shared::kPairTexels * pairs,
+                                           2 * pairs, static_cast<std::uint8_t>(mask)};
+    };
+    std::vector<AccelerationStructure::Part> parts{part(0, count - emitters, shared::kMaskAll)};
+    if (emitters > 0) parts.push_back(part(count - emitters, emitters, shared::kMaskEmitters));
+    std::vector<std::uint32_t> indices;
+    indices.reserve(std::size_t{6} * (count - emitters));
+    for (std::uint32_t pair = 0; pair < count - emitters; ++pair) {
+        for (const std::uint32_t corner : {0u, 1u, 2u, 3u, 2u, 1u})
+            indices.push_back(shared::kPairTexels * pair + corner);
+    }
+    return {device, buffer, indices, parts};
 }
 
 Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
     WideBvh all = cachedWideBvh(geometry);
-    Trees trees{std::move(all.nodes), std::move(all.triangles), 0};
+    Trees trees{std::move(all.nodes), std::move(all.pairs), 0};
     if (emitters.empty()) return trees;
     const WideBvh second = cachedWideBvh(geometry, emitters);
     trees.emitterRoot = static_cast<std::uint32_t>(trees.nodes.size());
-    const auto firstTriangle = static_cast<std::uint32_t>(trees.triangles.size());
+    const auto firstPair = static_cast<std::uint32_t>(trees.pairs.size());
     for (shared::WideNode node : second.nodes) {
         node.childBase += trees.emitterRoot;
-        node.triangleBase += firstTriangle;
+        node.pairBase += firstPair;
         trees.nodes.push_back(node);
     }
-    trees.triangles.insert(trees.triangles.end(), second.triangles.begin(), second.triangles.end());
+    trees.pairs.insert(trees.pairs.end(), second.pairs.begin(), second.pairs.end());
     return trees;
 }
 
@@ -176,12 +195,16 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
 
     start = std::chrono::steady_clock::now();
     const LightTable table = buildLightTable(scene, traits.secondColumn || lightPaths);
-    std::vector<shared::DeviceTriangle> triangles(trees.triangles.size());
-    std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : trees.triangles.size());
-    parallelFor(triangles.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<shared::DevicePair> pairs(trees.pairs.size());
+    std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : 2 * pairs.size());
+    parallelFor(pairs.size(), 1 << 15, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            triangles[i] = deviceTriangle(geometry, trees.triangles[i]);
-            if (!normals.empty()) normals[i] = deviceNormals(geometry, trees.triangles[i]);
+            const TrianglePair& pair = trees.pairs[i];
+            const PairCorners corners = cornersOf(geometry, pair).value();
+            pairs[i] = devicePair(geometry, pair, corners);
+            if (normals.empty()) continue;
+            normals[2 * i] = deviceNormals(geometry, pair.first, corners.turns[0]);
+            normals[2 * i + 1] = deviceNormals(geometry, pair.second, corners.turns[1]);
         }
     });
     using Use = BufferUse;
@@ -199,9 +222,9 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
         .quantum = filmQuantum(scene),
         .buildSeconds = buildSeconds,
         .nodes = Buffer::upload<shared::WideNode>(device, treeUse, trees.nodes, "BVH nodes"),
-        .triangles = Buffer::upload<shared::DeviceTriangle>(
-            device, treeUse, triangles, "triangles",
-            rayQueries ? AccelerationStructure::kTriangleUse : vk::BufferUsageFlags()),
+        .triangles = Buffer::upload<shared::DevicePair>(
+            device, treeUse, pairs, "triangles",
+            rayQueries ? AccelerationStructure::kInputUse : vk::BufferUsageFlags()),
         .normals = Buffer::upload<shared::DeviceNormals>(device, Use::kTexels, normals, "normals"),
         .materials = Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels,
                                                             deviceMaterials(scene, table), "materials"),

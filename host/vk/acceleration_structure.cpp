@@ -52,10 +52,12 @@ AccelerationStructure::Level AccelerationStructure::build(
     return {std::move(memory), std::move(structure)};
 }
 
-std::vector<AccelerationStructure::Level> AccelerationStructure::buildParts(const Device& device,
-                                                                            const Buffer& triangles,
-                                                                            std::span<const Part> parts) {
+std::vector<AccelerationStructure::Level> AccelerationStructure::buildParts(
+    const Device& device, const Buffer& vertices, std::span<const std::uint32_t> indices,
+    std::span<const Part> parts) {
     const std::uint64_t most = limitsOf(device).maxPrimitiveCount;
+    const Buffer corners =
+        Buffer::upload(device, BufferUse::kUnbound, indices, "indices for ray queries", kInputUse);
     std::vector<Level> levels;
     for (const Part& part : parts) {
         if (part.triangles > most) {
@@ -63,10 +65,10 @@ std::vector<AccelerationStructure::Level> AccelerationStructure::buildParts(cons
                 fmt::format("{} ({}): {} triangles, more than the {} that ray queries can have",
                             device.info().name, device.info().driver, part.triangles, most));
         }
-        const vk::DeviceAddress first = triangles.address() + 3 * kVertexBytes * part.firstTriangle;
-        const vk::AccelerationStructureGeometryTrianglesDataKHR data(vk::Format::eR32G32B32Sfloat, first,
-                                                                     kVertexBytes, 3 * part.triangles - 1,
-                                                                     vk::IndexType::eNoneKHR);
+        const vk::DeviceAddress first = vertices.address() + kVertexBytes * part.firstVertex;
+        const vk::AccelerationStructureGeometryTrianglesDataKHR data(
+            vk::Format::eR32G32B32Sfloat, first, kVertexBytes, part.vertices - 1, vk::IndexType::eUint32,
+            corners.address());
         levels.push_back(build(device, vk::AccelerationStructureTypeKHR::eBottomLevel,
                                {vk::GeometryTypeKHR::eTriangles, data}, part.triangles));
     }
@@ -84,15 +86,16 @@ AccelerationStructure::Level AccelerationStructure::buildTop(const Device& devic
                                device.handle().getAccelerationStructureAddressKHR(*levels[i].structure));
     }
     const Buffer memory = Buffer::upload<vk::AccelerationStructureInstanceKHR>(
-        device, BufferUse::kUnbound, instances, "instances for ray queries", kTriangleUse);
+        device, BufferUse::kUnbound, instances, "instances for ray queries", kInputUse);
     const vk::AccelerationStructureGeometryInstancesDataKHR data(VK_FALSE, memory.address());
     return build(device, vk::AccelerationStructureTypeKHR::eTopLevel, {vk::GeometryTypeKHR::eInstances, data},
                  static_cast<std::uint32_t>(instances.size()));
 }
 
-AccelerationStructure::AccelerationStructure(const Device& device, const Buffer& triangles,
+AccelerationStructure::AccelerationStructure(const Device& device, const Buffer& vertices,
+                                             std::span<const std::uint32_t> indices,
                                              std::span<const Part> parts) try
-    : parts_(buildParts(device, triangles, parts)), top_(buildTop(device, parts_, parts)) {
+    : parts_(buildParts(device, vertices, indices, parts)), top_(buildTop(device, parts_, parts)) {
 } catch (const vk::SystemError& e) {
     throw MachineError(fmt::format("building a tree for ray queries failed on {} ({}): {}",
                                    device.info().name, device.info().driver, e.what()));

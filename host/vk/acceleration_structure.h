@@ -14,24 +14,26 @@ namespace duolux {
 /// DeviceInfo::rayQueries.
 class AccelerationStructure {
   public:
-    /// How the buffer of the triangles must have been made.
-    static constexpr vk::BufferUsageFlags kTriangleUse =
+    /// How the buffer of the vertices must have been made.
+    static constexpr vk::BufferUsageFlags kInputUse =
         vk::BufferUsageFlagBits::eShaderDeviceAddress |
         vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR;
 
-    /// Consecutive triangles of the buffer, at least one. Each part becomes an instance, in order, with a
-    /// mask of its own.
+    /// Consecutive vertices of the buffer, and triangles among them (at least one). Each part becomes an
+    /// instance, in order, with a mask of its own.
     struct Part {
-        std::uint32_t firstTriangle, triangles;
+        std::uint32_t firstVertex, vertices, triangles;
         std::uint8_t mask;
     };
 
-    /// `triangles`: three vertices each, of 16 bytes, which begin with the position as three floats. Throws
-    /// MachineError if the driver fails, or memory or limits do not suffice.
-    AccelerationStructure(const Device& device, const Buffer& triangles, std::span<const Part> parts);
+    /// `vertices`: of 16 bytes, which begin with the position as three floats. `indices`: of each triangle's
+    /// corners, from the part's first vertex on; all parts use them from the start. Throws MachineError if
+    /// the driver fails, or memory or limits do not suffice.
+    AccelerationStructure(const Device& device, const Buffer& vertices,
+                          std::span<const std::uint32_t> indices, std::span<const Part> parts);
 
     vk::AccelerationStructureKHR handle() const { return *top_.structure; }
-    std::uint64_t allocated() const;  ///< bytes of device memory, without the triangles
+    std::uint64_t allocated() const;  ///< bytes of device memory, without the vertices
 
   private:
     /// The tree of a part, or the one over all of these.
@@ -41,8 +43,8 @@ class AccelerationStructure {
     };
     static Level build(const Device& device, vk::AccelerationStructureTypeKHR type,
                        const vk::AccelerationStructureGeometryKHR& geometry, std::uint32_t primitives);
-    static std::vector<Level> buildParts(const Device& device, const Buffer& triangles,
-                                         std::span<const Part> parts);
+    static std::vector<Level> buildParts(const Device& device, const Buffer& vertices,
+                                         std::span<const std::uint32_t> indices, std::span<const Part> parts);
     static Level buildTop(const Device& device, const std::vector<Level>& levels,
                           std::span<const Part> parts);
 

@@ -18,9 +18,9 @@ uvec4 fetchNodeTexel(uint index) { return imageLoad(nodeTexels, int(index)); }
 #endif
 
 #ifdef DUOLUX_STORAGE
-layout(binding = kBindingTriangles, std430) readonly buffer TrianglesBlock { uvec4 triangleTexels[]; };
-uvec4 fetchTriangleTexel(uint index) { return triangleTexels[index]; }
+layout(binding = kBindingTriangles, std430) readonly buffer PairsBlock { uvec4 pairTexels[]; };
+uvec4 fetchPairTexel(uint index) { return pairTexels[index]; }
 #else
-layout(binding = kBindingTriangles, rgba32ui) uniform readonly uimageBuffer triangleTexels;
-uvec4 fetchTriangleTexel(uint index) { return imageLoad(triangleTexels, int(index)); }
+layout(binding = kBindingTriangles, rgba32ui) uniform readonly uimageBuffer pairTexels;
+uvec4 fetchPairTexel(uint index) { return imageLoad(pairTexels, int(index)); }
 #endif

@@ -58,7 +58,7 @@ void traverseOrdered(inout Traversal r) {
     while (rayQueryProceedEXT(query)) {
         float t = rayQueryGetIntersectionTEXT(query, false);
         uint triangle = r.firstTriangle + uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
-        uint primitive = fetchTriangleTexel(triangle * kTriangleTexels).w;
+        uint primitive = fetchTriangle(triangle).primitive;
         bool after = t > r.tMin || (t == r.tMin && primitive > r.afterPrimitive);
         if (after && (t < r.t || (t == r.t && primitive < r.primitive))) {
             r.t = t;

@@ -36,20 +36,20 @@ Traversal startRay(uint index) {
 // As traverse(), and counts what lanes do and how many steps the subgroup takes for it.
 void traverseCounting(inout Traversal r, inout TraceCounts sums) {
     while (traversalAlive(r)) {
-        while (r.triangleMask == 0u && r.nodesLeft) {
+        while (r.pairMask == 0u && r.nodesLeft) {
             sums.nodeSteps += subgroupElect() ? 1u : 0u;
             sums.nodes += 1u;
             visitNode(r);
-            if (subgroupBallotBitCount(subgroupBallot(r.triangleMask == 0u && r.nodesLeft)) < kLeaveNodes) break;
+            if (subgroupBallotBitCount(subgroupBallot(r.pairMask == 0u && r.nodesLeft)) < kLeaveNodes) break;
         }
-        while (r.triangleMask != 0u) {
-            sums.triangleSteps += subgroupElect() ? 1u : 0u;
-            sums.triangles += 1u;
-            testTriangle(r, kOrdered);
+        while (r.pairMask != 0u) {
+            sums.pairSteps += subgroupElect() ? 1u : 0u;
+            sums.pairs += 1u;
+            testPair(r, kOrdered);
         }
         if (r.anyHit && r.triangle != kNoTriangle) {
             r.nodesLeft = false;
-            r.triangleMask = 0u;
+            r.pairMask = 0u;
         }
         if (subgroupBallotBitCount(subgroupBallot(traversalAlive(r))) < kLeaveTraversal) break;
     }
@@ -105,8 +105,8 @@ void main() {
     }
     if (kCount) {
         atomicAdd(counts.nodes, sums.nodes);
-        atomicAdd(counts.triangles, sums.triangles);
+        atomicAdd(counts.pairs, sums.pairs);
         atomicAdd(counts.nodeSteps, sums.nodeSteps);
-        atomicAdd(counts.triangleSteps, sums.triangleSteps);
+        atomicAdd(counts.pairSteps, sums.pairSteps);
     }
 }

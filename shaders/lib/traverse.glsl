@@ -35,11 +35,11 @@ struct Traversal {
     uint primitive;
     vec2 barycentric;
     // Position in the tree: a group of sibling nodes still to visit (bits 24..31 of groupMask by visiting order, bits
-    // 0..7 the slots that hold nodes), and triangles still to test.
+    // 0..7 the slots that hold nodes), and pairs of triangles still to test.
     uint groupBase;
     uint groupMask;
-    uint triangleBase;
-    uint triangleMask;
+    uint pairBase;
+    uint pairMask;
     int stackSize;
     bool nodesLeft;
 };
@@ -67,14 +67,14 @@ Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uin
     r.barycentric = vec2(0.0);
     r.groupBase = root;
     r.groupMask = 0x80000000u;
-    r.triangleBase = 0u;
-    r.triangleMask = 0u;
+    r.pairBase = 0u;
+    r.pairMask = 0u;
     r.stackSize = 0;
     r.nodesLeft = true;
     return r;
 }
 
-bool traversalAlive(Traversal r) { return r.nodesLeft || r.triangleMask != 0u; }
+bool traversalAlive(Traversal r) { return r.nodesLeft || r.pairMask != 0u; }
 
 // Minimum and maximum on the bits as integers: the same as on floats as long as the result is not negative, without
 // the handling of NaN. In the slab test a negative result is only compared with 0.
@@ -85,7 +85,7 @@ vec4 unpackBytes(uint x) {
     return vec4(float(int(x & 255u)), float(int((x >> 8u) & 255u)), float(int((x >> 16u) & 255u)), float(int(x >> 24u)));
 }
 
-// Slab tests of four children. Returns bits: inner nodes from bit 24 in visiting order, triangles from bit 0.
+// Slab tests of four children. Returns bits: inner nodes from bit 24 in visiting order, pairs from bit 0.
 uint intersectFourChildren(Traversal r, vec3 scale, vec3 offset, uint meta, uint lowerX, uint lowerY, uint lowerZ,
                            uint upperX, uint upperY, uint upperZ) {
     vec4 nearX = unpackBytes(r.inverse.x < 0.0 ? upperX : lowerX) * scale.x + offset.x;
@@ -111,7 +111,7 @@ uint intersectFourChildren(Traversal r, vec3 scale, vec3 offset, uint meta, uint
     return hits;
 }
 
-// Visits the next node. Requires r.nodesLeft and no triangles left.
+// Visits the next node. Requires r.nodesLeft and no pairs left.
 void visitNode(inout Traversal r) {
     uint bit = uint(findMSB(r.groupMask));
     uint slot = (bit - 24u) ^ r.octant;
@@ -136,8 +136,8 @@ void visitNode(inout Traversal r) {
                 intersectFourChildren(r, scale, offset, w1.w, w2.y, w2.w, w3.y, w3.w, w4.y, w4.w);
     r.groupBase = w1.x;
     r.groupMask = (hits & 0xff000000u) | (w0.w >> 24u);
-    r.triangleBase = w1.y;
-    r.triangleMask = hits & 0x00ffffffu;
+    r.pairBase = w1.y;
+    r.pairMask = hits & 0x00ffffffu;
 
     bool none = r.groupMask <= 0x00ffffffu;
     r.nodesLeft = !none || r.stackSize > 0;
@@ -146,11 +146,7 @@ void visitNode(inout Traversal r) {
     r.groupMask = none ? stackMask[r.stackSize] : r.groupMask;
 }
 
-// Tests the next triangle. Requires r.triangleMask != 0.
-void testTriangle(inout Traversal r, bool ordered) {
-    uint index = r.triangleBase + uint(findLSB(r.triangleMask));
-    r.triangleMask &= r.triangleMask - 1u;
-    Triangle tri = fetchTriangle(index);
+void testTriangle(inout Traversal r, Triangle tri, uint index, bool ordered) {
     TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV);
     bool accepted = h.hit && h.t < r.t && h.t > r.tMin;
     if (ordered) {  // coincident surfaces are met one after the other
@@ -162,6 +158,15 @@ void testTriangle(inout Traversal r, bool ordered) {
     r.triangle = accepted ? index : r.triangle;
     r.primitive = accepted ? tri.primitive : r.primitive;
     r.barycentric = accepted ? h.barycentric : r.barycentric;
+}
+
+// Tests the next two triangles. Requires r.pairMask != 0.
+void testPair(inout Traversal r, bool ordered) {
+    uint index = r.pairBase + uint(findLSB(r.pairMask));
+    r.pairMask &= r.pairMask - 1u;
+    TrianglePair pair = fetchPair(index);
+    testTriangle(r, pair.first, 2u * index, ordered);
+    testTriangle(r, pair.second, 2u * index + 1u, ordered);
 }
 
 // Lanes of the subgroup for which `b` holds, to decide when to leave a loop. A lane that is no longer in the loop must have
@@ -178,17 +183,17 @@ uint laneCount(bool b) {
 // left for triangles when fewer than `leaveNodes` lanes want another node. `ordered`: see testTriangle.
 void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNodes) {
     while (traversalAlive(r)) {
-        while (r.triangleMask == 0u && r.nodesLeft) {
+        while (r.pairMask == 0u && r.nodesLeft) {
             visitNode(r);
-            if (laneCount(r.triangleMask == 0u && r.nodesLeft) < leaveNodes) break;
+            if (laneCount(r.pairMask == 0u && r.nodesLeft) < leaveNodes) break;
         }
-        if (r.triangleMask != 0u) {
-            do testTriangle(r, ordered);
-            while (r.triangleMask != 0u);
+        if (r.pairMask != 0u) {
+            do testPair(r, ordered);
+            while (r.pairMask != 0u);
         }
         if (r.anyHit && r.triangle != kNoTriangle) {
             r.nodesLeft = false;
-            r.triangleMask = 0u;
+            r.pairMask = 0u;
         }
         if (laneCount(traversalAlive(r)) < leaveTraversal) break;
     }

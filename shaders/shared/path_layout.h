@@ -9,7 +9,7 @@ DUOLUX_BEGIN
 
 // Descriptor bindings, all in set 0.
 DUOLUX_CONST uint kBindingNodes = 0u;      // WideNode as texels or storage, or acceleration structure
-DUOLUX_CONST uint kBindingTriangles = 1u;  // DeviceTriangle as texels or storage
+DUOLUX_CONST uint kBindingTriangles = 1u;  // DevicePair as texels or storage
 DUOLUX_CONST uint kBindingNormals = 2u;    // texels: DeviceNormals
 DUOLUX_CONST uint kBindingMaterials = 3u;  // texels: DeviceMaterial
 DUOLUX_CONST uint kBindingLights = 4u;     // texels: DeviceLight

@@ -31,10 +31,10 @@ struct TraceHit {
 
 // In place of hits where kSpecCount is true: sums over the dispatch.
 struct TraceCounts {
-    uint nodes;          // visited
-    uint triangles;      // tested
-    uint nodeSteps;      // of subgroups, in which at least one lane visited a node
-    uint triangleSteps;  // in which at least one tested a triangle
+    uint nodes;      // visited
+    uint pairs;      // of triangles, tested
+    uint nodeSteps;  // of subgroups, in which at least one lane visited a node
+    uint pairSteps;  // in which at least one tested a pair
 };
 
 // Rays of [0, rays) in blocks, one a subgroup.

@@ -37,14 +37,10 @@ const TwoSpheres& twoSpheres(std::int64_t triangles) {
     return entry;
 }
 
-std::vector<PrimitiveRef> refsOf(const Geometry& geometry) {
-    std::vector<PrimitiveRef> refs;
-    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-        const glm::uvec3 t = geometry.triangles[i];
-        const glm::vec3 a = geometry.positions[t.x], b = geometry.positions[t.y], c = geometry.positions[t.z];
-        refs.push_back({glm::min(a, glm::min(b, c)), i, glm::max(a, glm::max(b, c)), 0});
-    }
-    return refs;
+std::vector<TrianglePair> pairsOf(const Geometry& geometry) {
+    std::vector<std::uint32_t> all(geometry.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return pairTriangles(geometry, all);
 }
 
 void countTriangles(benchmark::State& state, const Geometry& geometry) {
@@ -58,9 +54,16 @@ void LoadObj(benchmark::State& state) {
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(scene.bytes));
 }
 
+void PairTriangles(benchmark::State& state) {
+    const Geometry& geometry = twoSpheres(state.range(0)).scene.geometry;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(pairsOf(geometry));
+    countTriangles(state, geometry);
+}
+
 void BuildBinary(benchmark::State& state, SplitMethod method) {
     const Geometry& geometry = twoSpheres(state.range(0)).scene.geometry;
-    const std::vector<PrimitiveRef> refs = refsOf(geometry);
+    const std::vector<PrimitiveRef> refs = boxesOf(geometry, pairsOf(geometry));
     for (auto _ : state) {
         std::vector<PrimitiveRef> copy = refs;
         benchmark::DoNotOptimize(buildBinaryBvh(copy, method));
@@ -70,7 +73,7 @@ void BuildBinary(benchmark::State& state, SplitMethod method) {
 
 void Collapse(benchmark::State& state) {
     const Geometry& geometry = twoSpheres(state.range(0)).scene.geometry;
-    std::vector<PrimitiveRef> refs = refsOf(geometry);
+    std::vector<PrimitiveRef> refs = boxesOf(geometry, pairsOf(geometry));
     const BinaryBvh binary = buildBinaryBvh(refs, SplitMethod::kBinnedSah);
     for (auto _ : state)
         benchmark::DoNotOptimize(CollapsePlan(binary));
@@ -98,6 +101,7 @@ void ResolveFilm(benchmark::State& state) {
 constexpr auto kUnit = benchmark::kMillisecond;
 
 BENCHMARK(LoadObj)->Arg(1'000)->Arg(100'000)->Arg(500'000)->Unit(kUnit)->UseRealTime();
+BENCHMARK(PairTriangles)->Arg(500'000)->Unit(kUnit)->UseRealTime();
 BENCHMARK_CAPTURE(BuildBinary, binned_sah, SplitMethod::kBinnedSah)
     ->Arg(1'000)
     ->Arg(500'000)

@@ -86,7 +86,8 @@ TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
     }
 }
 
-/// Each surface three times: all are met, and no walk ends at a place where two are.
+/// Each surface three times: all are met, and no walk ends at a place where two are. (Where copies have other
+/// neighbours in their pairs, their distances differ by rounding.)
 TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
     const Scene once = builtin(GetParam());
     Scene thrice = once;
@@ -113,7 +114,10 @@ TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
         const std::vector<shared::TraceHit> triple = trace(thrice);
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < single.size(); ++i)
-            wrong += triple[i].t == single[i].t && triple[i].normal.x == 3.0f * single[i].normal.x ? 0 : 1;
+            wrong += std::abs(triple[i].t - single[i].t) <= 1e-6f * std::abs(single[i].t) &&
+                             triple[i].normal.x == 3.0f * single[i].normal.x
+                         ? 0
+                         : 1;
         EXPECT_EQ(wrong, 0u) << nameOf(tuning);
     }
 }
@@ -127,9 +131,9 @@ TEST_P(RaySets, CountsAreThoseOfTheRays) {
         counting.run();
         const shared::TraceCounts counts = counting.counts();
         EXPECT_GE(counts.nodes, set.rays.size()) << set.name;  // the root at least
-        EXPECT_GT(counts.triangles, 0u) << set.name;
+        EXPECT_GT(counts.pairs, 0u) << set.name;
         EXPECT_LE(counts.nodes, std::uint64_t{counts.nodeSteps} * lanes) << set.name;
-        EXPECT_LE(counts.triangles, std::uint64_t{counts.triangleSteps} * lanes) << set.name;
+        EXPECT_LE(counts.pairs, std::uint64_t{counts.pairSteps} * lanes) << set.name;
         EXPECT_LE(counts.nodeSteps, counts.nodes) << set.name;
     }
 }

@@ -140,9 +140,9 @@ inline void listFields(const shared::TraceHit& s, WordList& list) {
 }
 inline void listFields(const shared::TraceCounts& s, WordList& list) {
     DUOLUX_FIELD(nodes);
-    DUOLUX_FIELD(triangles);
+    DUOLUX_FIELD(pairs);
     DUOLUX_FIELD(nodeSteps);
-    DUOLUX_FIELD(triangleSteps);
+    DUOLUX_FIELD(pairSteps);
 }
 inline void listFields(const shared::TraceDispatch& s, WordList& list) {
     DUOLUX_FIELD(rays);
@@ -169,13 +169,15 @@ inline void listFields(const shared::DeviceLight& s, WordList& list) {
     DUOLUX_FIELD(alias);
     DUOLUX_FIELD(padding);
 }
-inline void listFields(const shared::DeviceTriangle& s, WordList& list) {
+inline void listFields(const shared::DevicePair& s, WordList& list) {
     DUOLUX_FIELD(v0);
-    DUOLUX_FIELD(primitive);
+    DUOLUX_FIELD(primitive0);
     DUOLUX_FIELD(v1);
-    DUOLUX_FIELD(materialFlags);
+    DUOLUX_FIELD(materialFlags1);
     DUOLUX_FIELD(v2);
-    DUOLUX_FIELD(unused);
+    DUOLUX_FIELD(materialFlags0);
+    DUOLUX_FIELD(v3);
+    DUOLUX_FIELD(primitive1);
 }
 #undef DUOLUX_FIELD
 

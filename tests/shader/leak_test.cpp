@@ -72,18 +72,17 @@ class ClosedMesh : public testing::TestWithParam<Mesh> {
         library.define(kRays);
         std::vector<std::uint32_t> seeds(rays / kRaysPerInvocation);
         std::iota(seeds.begin(), seeds.end(), 1u);
-        return sum(
-            library.evaluate<Leaks>("result = Leaks(0u, 0u, 0u, vec3(0.0), vec3(0.0));\nseedRandom(1u, x0);\n"
-                                    "for (uint i = 0u; i < 64u; i++) {" +
-                                        statements + "}",
-                                    seeds, static_cast<std::uint32_t>(scene.tree.triangles.size()),
-                                    glm::vec4(mesh.offset, mesh.scale), mesh.inner * mesh.scale));
+        return sum(library.evaluate<Leaks>(
+            "result = Leaks(0u, 0u, 0u, vec3(0.0), vec3(0.0));\nseedRandom(1u, x0);\n"
+            "for (uint i = 0u; i < 64u; i++) {" +
+                statements + "}",
+            seeds, scene.tree.triangles(), glm::vec4(mesh.offset, mesh.scale), mesh.inner * mesh.scale));
     }
 };
 
 TEST_P(ClosedMesh, DoesNotLeakAtItsEdges) {
     const Leaks leaks = run(GetParam(), R"(
-        Triangle tri = fetchTriangle(randomUint() % x1);
+        Triangle tri = fetchTriangle(presentTriangle(randomUint() % x1));
         uint kind = randomUint() % 4u;
         float s = kind == 0u ? 0.0 : randomFloat();
         vec3 target = tri.v0 * (1.0 - s) + tri.v1 * s;
@@ -136,7 +135,7 @@ TEST_P(SeenFromAfar, MeshesAreMetAtTheirEdges) {
         result = Leaks(0u, 0u, 0u, vec3(0.0), vec3(0.0));
         seedRandom(1u, x0);
         for (uint i = 0u; i < 64u; i++) {
-            Triangle tri = fetchTriangle(randomUint() % x1);
+            Triangle tri = fetchTriangle(presentTriangle(randomUint() % x1));
             float s = (randomUint() & 3u) == 0u ? 0.0 : randomFloat();
             vec3 target = tri.v0 * (1.0 - s) + tri.v1 * s;
             vec3 outwards = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
@@ -154,7 +153,7 @@ TEST_P(SeenFromAfar, MeshesAreMetAtTheirEdges) {
             result.leaks += leak ? 1u : 0u;
             if (leak) result.origin = origin, result.direction = r.direction;
         })",
-                                seeds, static_cast<std::uint32_t>(scene.tree.triangles.size()),
+                                seeds, scene.tree.triangles(),
                                 glm::vec3(GetParam().distance, GetParam().leastSlant, GetParam().mostSlant)));
     EXPECT_GT(leaks.rays, 160000u);
     EXPECT_EQ(leaks.leaks, 0u) << leaks.origin.x << " " << leaks.origin.y << " " << leaks.origin.z
@@ -197,7 +196,7 @@ class RayOffset : public testing::TestWithParam<Place> {
             result = Leaks(0u, 0u, 0u, vec3(0.0), vec3(0.0));
             seedRandom(1u, x0);
             for (uint i = 0u; i < 64u; i++) {
-                uint index = randomUint() % x1;
+                uint index = presentTriangle(randomUint() % x1);
                 Triangle tri = fetchTriangle(index);
                 vec2 b = vec2(randomFloat(), randomFloat());
                 b = x3 + (1.0 - 3.0 * x3) * (b.x + b.y > 1.0 ? 1.0 - b : b);
@@ -218,7 +217,7 @@ class RayOffset : public testing::TestWithParam<Place> {
                 float plane = max(abs(off.x), max(abs(off.y), abs(off.z)));
                 result.selfHits += hit && plane <= 0.1 * pointError(tri) ? 1u : 0u;
             })",
-                                           seeds, static_cast<std::uint32_t>(scene.tree.triangles.size()),
+                                           seeds, scene.tree.triangles(),
                                            glm::vec4(place.scale * place.offset, place.scale), margin));
     }
 };

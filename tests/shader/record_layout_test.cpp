@@ -102,14 +102,26 @@ TEST(RecordLayout, AliasTableIsReadFieldByField) {
 
 TEST(RecordLayout, TrianglesAreFetchedFieldByField) {
     using mirror::single::Triangle;
-    const auto records = sentinels<shared::DeviceTriangle>(kRecords);
+    const auto records = sentinels<shared::DevicePair>(kRecords);
     ShaderLibrary library("shaders/lib/traverse.glsl");
-    library.texels("fetchTriangleTexel", std::span(std::as_const(records)));
+    library.texels("fetchPairTexel", std::span(std::as_const(records)));
     library.define("uvec4 fetchNodeTexel(uint index) { return uvec4(0u); }");
-    const auto triangles = library.call<Triangle>("fetchTriangle", recordIndices());
-    for (std::size_t i = 0; i < kRecords; ++i)
-        EXPECT_EQ(numbers(triangles[i]), sentinelNumbers<shared::DeviceTriangle>(
-                                             i, {"v0", "v1", "v2", "primitive", "materialFlags"}));
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 2 * kRecords; ++i)
+        indices.push_back(i);
+    const auto triangles = library.call<Triangle>("fetchTriangle", indices);
+    const auto first = library.evaluate<Triangle>("result = fetchPair(x0).first;", recordIndices());
+    const auto second = library.evaluate<Triangle>("result = fetchPair(x0).second;", recordIndices());
+    for (std::size_t i = 0; i < kRecords; ++i) {
+        const auto firstNumbers =
+            sentinelNumbers<shared::DevicePair>(i, {"v0", "v1", "v2", "primitive0", "materialFlags0"});
+        const auto secondNumbers =
+            sentinelNumbers<shared::DevicePair>(i, {"v3", "v2", "v1", "primitive1", "materialFlags1"});
+        EXPECT_EQ(numbers(triangles[2 * i]), firstNumbers);
+        EXPECT_EQ(numbers(triangles[2 * i + 1]), secondNumbers);
+        EXPECT_EQ(numbers(first[i]), firstNumbers);
+        EXPECT_EQ(numbers(second[i]), secondNumbers);
+    }
 }
 
 // Octahedral words of the six axes, by hand: vertex k of record i has axis i + k.
@@ -155,7 +167,7 @@ shared::WideNode probedNode() {
     }
     node.innerMask = 0x55;
     node.childBase = 0x00c0ffeeu;
-    node.triangleBase = 0x00abcdefu;
+    node.pairBase = 0x00abcdefu;
     for (std::uint32_t slot = 0; slot < 8; ++slot) {
         const std::uint32_t triangles = (1u << (1 + slot / 2 % 3)) - 1;  // unary, 1 to 3
         const std::uint32_t meta =
@@ -169,7 +181,7 @@ shared::WideNode probedNode() {
 struct NodeProbes {
     std::vector<glm::vec3> origin, direction;
     std::vector<float> tMin, tMax;
-    std::vector<glm::uvec4> expected;  // groupBase, groupMask, triangleBase, triangleMask; 0: nothing hit
+    std::vector<glm::uvec4> expected;  // groupBase, groupMask, pairBase, pairMask; 0: nothing hit
 };
 
 void probeChild(NodeProbes& probes, const shared::WideNode& node, std::uint32_t slot, int axis, float sign) {
@@ -190,15 +202,15 @@ void probeChild(NodeProbes& probes, const shared::WideNode& node, std::uint32_t 
     const float step = 0.25f * unit[axis];  // a quarter of what one in a byte makes
     const std::uint32_t octant = (axis == 0 && sign < 0.0f ? 0u : 4u) | (axis == 1 && sign < 0.0f ? 0u : 2u) |
                                  (axis == 2 && sign < 0.0f ? 0u : 1u);
-    glm::uvec4 hit(0u, 0u, node.triangleBase, (node.meta[slot] >> 5u) << (node.meta[slot] & 31u));
+    glm::uvec4 hit(0u, 0u, node.pairBase, (node.meta[slot] >> 5u) << (node.meta[slot] & 31u));
     if (slot % 2 == 0)
-        hit = {node.childBase, 1u << (24 + (slot ^ octant)) | node.innerMask, node.triangleBase, 0};
+        hit = {node.childBase, 1u << (24 + (slot ^ octant)) | node.innerMask, node.pairBase, 0};
     const auto add = [&](float tMin, float tMax, bool hits) {
         probes.origin.push_back(origin);
         probes.direction.push_back(direction);
         probes.tMin.push_back(tMin);
         probes.tMax.push_back(tMax);
-        probes.expected.push_back(hits ? hit : glm::uvec4(0u, 0u, node.triangleBase, 0u));
+        probes.expected.push_back(hits ? hit : glm::uvec4(0u, 0u, node.pairBase, 0u));
     };
     // The intervals that just fail to reach the planes of the child's box, and that just do.
     add(0.0f, near - step, false);
@@ -218,13 +230,13 @@ TEST(RecordLayout, NodesAreVisitedByteByByte) {
     }
     ShaderLibrary library("shaders/lib/traverse.glsl");
     library.texels("fetchNodeTexel", std::span(nodes));
-    library.define("uvec4 fetchTriangleTexel(uint index) { return uvec4(0u); }");
+    library.define("uvec4 fetchPairTexel(uint index) { return uvec4(0u); }");
     // Where no inner child is hit there is no group, and its base means nothing.
     const auto seen = library.evaluate<glm::uvec4>(
         "Traversal r = traversalStart(2u, x0, x1, x2, 0u, x3, false); visitNode(r);"
         "bool group = r.groupMask > 0x00ffffffu;"
-        "result = uvec4(group ? uvec2(r.groupBase, r.groupMask) : uvec2(0u), r.triangleBase, "
-        "r.triangleMask);",
+        "result = uvec4(group ? uvec2(r.groupBase, r.groupMask) : uvec2(0u), r.pairBase, "
+        "r.pairMask);",
         probes.origin, probes.direction, probes.tMin, probes.tMax);
     for (std::size_t i = 0; i < seen.size(); ++i)
         EXPECT_EQ(seen[i], probes.expected[i])

@@ -41,9 +41,17 @@ inline void addTriangle(Geometry& geometry, glm::vec3 a, glm::vec3 b, glm::vec3 
     geometry.materials.push_back(0);
 }
 
+/// Of the last triangle, across the edge between its first corners: the two are a pair.
+inline void addNeighbour(Geometry& geometry, glm::vec3 corner) {
+    const glm::uvec3 last = geometry.triangles.back();
+    geometry.triangles.push_back({last.y, last.x, static_cast<std::uint32_t>(geometry.positions.size())});
+    geometry.positions.push_back(corner);
+    geometry.materials.push_back(0);
+}
+
 /// Triangles of very different sizes, some of them degenerate or coincident.
 inline Geometry soup(int count, float scale, glm::vec3 centre = glm::vec3(0.0f)) {
-    Random random;
+    Random random, neighbours(2);
     Geometry geometry;
     for (int i = 0; i < count; ++i) {
         const glm::vec3 a = centre + scale * random.inBox(1.0f);
@@ -51,6 +59,7 @@ inline Geometry soup(int count, float scale, glm::vec3 centre = glm::vec3(0.0f))
         const glm::vec3 b = a + size * random.inBox(1.0f);
         const glm::vec3 c = a + size * random.inBox(1.0f);
         addTriangle(geometry, a, b, c);
+        if (i % 2 == 0) addNeighbour(geometry, a + size * neighbours.inBox(1.0f));
         if (i % 17 == 0) addTriangle(geometry, a, a, a);                              // a point
         if (i % 19 == 0) addTriangle(geometry, a, b, a + 0.5f * (b - a));             // a line
         if (i % 23 == 0) addTriangle(geometry, a, b, c);                              // twice the same

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
@@ -53,23 +54,29 @@ namespace duolux::test {
 /// What the device has of a scene.
 struct DeviceTree {
     std::vector<shared::WideNode> nodes;
-    std::vector<shared::DeviceTriangle> triangles;
+    std::vector<shared::DevicePair> pairs;
+
+    /// The second ones that pairs lack included.
+    std::uint32_t triangles() const { return 2 * static_cast<std::uint32_t>(pairs.size()); }
 };
 
-/// `primitives`: of the leaves' triangles; they are numbered if there are none.
+/// `primitives`: of the triangles, two a pair; they are numbered if there are none.
 inline void append(DeviceTree& tree, const Geometry& geometry, const WideBvh& bvh,
                    const std::vector<std::uint32_t>& primitives = {}) {
     const auto firstNode = static_cast<std::uint32_t>(tree.nodes.size());
-    const auto firstTriangle = static_cast<std::uint32_t>(tree.triangles.size());
+    const auto firstPair = static_cast<std::uint32_t>(tree.pairs.size());
     for (shared::WideNode node : bvh.nodes) {
         node.childBase += firstNode;
-        node.triangleBase += firstTriangle;
+        node.pairBase += firstPair;
         tree.nodes.push_back(node);
     }
-    for (std::uint32_t i = 0; i < bvh.triangles.size(); ++i) {
-        const glm::uvec3 index = geometry.triangles[bvh.triangles[i]];
-        tree.triangles.push_back({geometry.positions[index.x], primitives.empty() ? i : primitives[i],
-                                  geometry.positions[index.y], 0, geometry.positions[index.z], 0});
+    for (std::uint32_t i = 0; i < bvh.pairs.size(); ++i) {
+        const std::array<std::uint32_t, 4> corners = cornersOf(geometry, bvh.pairs[i]).value().positions;
+        const auto primitive = [&](std::uint32_t k) { return primitives.empty() ? k : primitives[k]; };
+        tree.pairs.push_back({geometry.positions[corners[0]], primitive(2 * i),
+                              geometry.positions[corners[1]], 0, geometry.positions[corners[2]], 0,
+                              geometry.positions[corners[3]],
+                              bvh.pairs[i].isSingle() ? kNone : primitive(2 * i + 1)});
     }
 }
 
@@ -83,6 +90,10 @@ inline ShaderLibrary traversalOf(const DeviceTree& tree) {
         uvec4 fetchNodeTexel(uint index) {
             nodesFetched += index % kNodeTexels == 0u ? 1u : 0u;
             return storedNodeTexel(index);
+        }
+        // A triangle's number, or that of its neighbour if its pair lacks it.
+        uint presentTriangle(uint index) {
+            return fetchTriangle(index).primitive == kNoTriangle ? index ^ 1u : index;
         }
         void closestOfAll(uint count, inout Traversal r) {
             for (uint i = 0u; i < count; i++) {
@@ -98,7 +109,7 @@ inline ShaderLibrary traversalOf(const DeviceTree& tree) {
             }
         })");
     library.texels<shared::WideNode>("storedNodeTexel", tree.nodes);
-    library.texels<shared::DeviceTriangle>("fetchTriangleTexel", tree.triangles);
+    library.texels<shared::DevicePair>("fetchPairTexel", tree.pairs);
     return library;
 }
 
@@ -112,13 +123,19 @@ inline std::vector<TestHit> trace(const ShaderLibrary& traversal, const std::vec
                                        rays, options);
 }
 
-/// A scene whose tree is built by the library. Primitives are the leaves' triangles in order.
+/// A scene whose tree is built by the library. Primitives are the numbers of triangles on the device.
 struct TracedScene {
     explicit TracedScene(Geometry mesh) : geometry(std::move(mesh)), bvh(buildWideBvh(geometry)) {
         append(tree, geometry, bvh);
     }
     std::vector<TestHit> trace(const std::vector<TestRay>& rays, const TraceOptions& options = {}) const {
         return test::trace(traversalOf(tree), rays, options);
+    }
+
+    /// In the geometry.
+    std::uint32_t triangleOf(std::uint32_t primitive) const {
+        const TrianglePair& pair = bvh.pairs.at(primitive / 2);
+        return primitive % 2 == 0 ? pair.first : pair.second;
     }
 
     Geometry geometry;
@@ -141,7 +158,7 @@ namespace duolux::test {
 
 inline std::vector<Walk> walk(const TracedScene& scene, const std::vector<TestRay>& rays,
                               const TraceOptions& options = {}) {
-    const auto count = static_cast<std::uint32_t>(scene.tree.triangles.size());
+    const std::uint32_t count = scene.tree.triangles();
     return traversalOf(scene.tree)
         .evaluate<Walk>(R"(
         result = Walk(0u, 0u);

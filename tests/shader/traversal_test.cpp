@@ -68,7 +68,7 @@ int compareNearest(const TracedScene& scene, const std::vector<TestRay>& rays,
             ADD_FAILURE() << "ray " << r << " hit at " << hit.t << ", behind " << nearestCertain;
         }
         // What it did hit must be there.
-        const auto own = referenceHit(geometry, scene.bvh.triangles[hit.primitive], rays[r]);
+        const auto own = referenceHit(geometry, scene.triangleOf(hit.primitive), rays[r]);
         if (own && (own->inside < -kEdge || std::abs(own->t - static_cast<double>(hit.t)) > tolerance)) {
             ++failures;
             ADD_FAILURE() << "ray " << r << " hit at " << hit.t << " where there is nothing (" << own->t
@@ -317,14 +317,17 @@ TEST(Traversal, ASecondTreeIsTracedFromItsOwnRoot) {
     std::vector<std::uint32_t> some, entryOf(geometry.triangles.size());
     for (std::uint32_t i = 0; i < geometry.triangles.size(); i += 3)
         some.push_back(i);
-    for (std::uint32_t i = 0; i < scene.bvh.triangles.size(); ++i)
-        entryOf[scene.bvh.triangles[i]] = i;
+    for (std::uint32_t i = 0; i < scene.tree.triangles(); ++i) {
+        if (scene.triangleOf(i) != kNone) entryOf[scene.triangleOf(i)] = i;
+    }
     const WideBvh second = buildWideBvh(geometry, some);
     std::vector<std::uint32_t> primitives;
-    for (const std::uint32_t triangle : second.triangles)
-        primitives.push_back(entryOf[triangle]);
+    for (const TrianglePair& pair : second.pairs) {
+        primitives.push_back(entryOf[pair.first]);
+        primitives.push_back(pair.isSingle() ? kNone : entryOf[pair.second]);
+    }
     const auto root = static_cast<std::uint32_t>(scene.tree.nodes.size());
-    const auto firstCopy = static_cast<std::uint32_t>(scene.tree.triangles.size());
+    const std::uint32_t firstCopy = scene.tree.triangles();
     append(scene.tree, geometry, second, primitives);
     DeviceTree alone;
     append(alone, geometry, second, primitives);
@@ -340,7 +343,9 @@ TEST(Traversal, ASecondTreeIsTracedFromItsOwnRoot) {
         if (!hits[i].found()) continue;
         ++found;
         ASSERT_EQ(hits[i].triangle, expected[i].triangle + firstCopy);
-        ASSERT_EQ(scene.bvh.triangles[hits[i].primitive], second.triangles[expected[i].triangle]);
+        const TrianglePair& pair = second.pairs[expected[i].triangle / 2];
+        ASSERT_EQ(scene.triangleOf(hits[i].primitive),
+                  expected[i].triangle % 2 == 0 ? pair.first : pair.second);
     }
     EXPECT_GT(found, 300);
 }

@@ -18,14 +18,18 @@ namespace {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-shared::DeviceTriangle planeAt(float z, std::uint32_t primitive) {
-    return {{-1, -1, z}, primitive, {1, -1, z}, 0, {0, 2, z}, 0};
+shared::DevicePair single(glm::vec3 a, glm::vec3 b, glm::vec3 c, std::uint32_t primitive) {
+    return {a, primitive, b, 0, c, 0, b, kNone};
+}
+
+shared::DevicePair planeAt(float z, std::uint32_t primitive) {
+    return single({-1, -1, z}, {1, -1, z}, {0, 2, z}, primitive);
 }
 
 TEST(Traverse, AnEmptyNodeIsAnEmptyScene) {
     DeviceTree tree;
     tree.nodes.resize(1);
-    tree.triangles.push_back(planeAt(1.0f, 0));
+    tree.pairs.push_back(planeAt(1.0f, 0));
     const std::vector<TestRay> rays{{{0, 0, 0}, 0.0f, {0, 0, 1}, kFar},
                                     {{0, 0, 0}, 0.0f, glm::vec3(-0.57735f), kFar}};
     for (const TestHit& hit : trace(traversalOf(tree), rays)) {
@@ -54,10 +58,10 @@ TEST(Traverse, AChainOfTheLargestDepthIsTraversed) {
             setChild(node, 0, innerMeta(0), lower, upper);
             setChild(node, 1, innerMeta(1), lower, upper);
         }
-        node.triangleBase = i;
+        node.pairBase = i;
         setChild(node, 5, leafMeta(1, 0), lower, upper);
         // Distances that do not grow with the order of visits.
-        tree.triangles.push_back(planeAt(1.0f + static_cast<float>(i * 29 % count), i));
+        tree.pairs.push_back(planeAt(1.0f + static_cast<float>(i * 29 % count), i));
     }
     const std::vector<TestRay> rays{{{0.1f, 0.1f, 0.0f}, 0.0f, {0, 0, 1}, kFar},
                                     {{0.1f, 0.1f, 60.0f}, 0.0f, {0, 0, -1}, kFar}};
@@ -96,11 +100,11 @@ TEST(Traverse, TheNearerOctantIsVisitedFirst) {
             setChild(tree.nodes[0], slot, innerMeta(slot), lower, upper);
             tree.nodes[child].childBase = child + 2;
             setChild(tree.nodes[child], 3, innerMeta(3), lower, upper);
-            tree.nodes[child + 2].triangleBase = child - 1;
+            tree.nodes[child + 2].pairBase = child - 1;
             setChild(tree.nodes[child + 2], 6, leafMeta(1, 0), lower, upper);
-            tree.triangles.push_back({centre + sign * glm::vec3(0.9f, -0.45f, -0.45f), child,
-                                      centre + sign * glm::vec3(-0.45f, 0.9f, -0.45f), 0,
-                                      centre + sign * glm::vec3(-0.45f, -0.45f, 0.9f), 0});
+            tree.pairs.push_back(single(centre + sign * glm::vec3(0.9f, -0.45f, -0.45f),
+                                        centre + sign * glm::vec3(-0.45f, 0.9f, -0.45f),
+                                        centre + sign * glm::vec3(-0.45f, -0.45f, 0.9f), child));
         }
         const TestRay ray{6.0f * sign, 0.0f, -sign / std::sqrt(3.0f), kFar};
         const TestHit hit = trace(traversalOf(tree), {ray})[0];
@@ -147,9 +151,9 @@ TEST(Traverse, TrianglesThatAreNotNumbersAreNotHit) {
     }
     setChild(node, 2, leafMeta(3, 0), glm::uvec3(0), glm::uvec3(255));
     for (float bad : {kNaN, kInfinite, -kInfinite}) {
-        tree.triangles = {planeAt(1.0f, 0), planeAt(2.0f, 1), planeAt(3.0f, 2)};
-        tree.triangles[0].v1.z = bad;
-        tree.triangles[2].v2.x = bad;
+        tree.pairs = {planeAt(1.0f, 0), planeAt(2.0f, 1), planeAt(3.0f, 2)};
+        tree.pairs[0].v1.z = bad;
+        tree.pairs[2].v2.x = bad;
         for (std::uint32_t ordered = 0; ordered < 2; ++ordered) {
             const TestHit hit =
                 trace(traversalOf(tree), {{{0.1f, 0.1f, 0}, 0.0f, {0, 0, 1}, kFar}}, {.ordered = ordered})[0];
@@ -178,13 +182,14 @@ TEST(TraverseOracles, NearestHits) {
     for (int i = 0; i < 200; ++i) {
         const glm::vec3 a = random.inBox(1.0f);
         addTriangle(geometry, a, a + 0.3f * random.direction(), a + 0.3f * random.direction());
+        if (i % 2 == 0) addNeighbour(geometry, a + 0.3f * random.direction());
     }
     const TracedScene scene(geometry);
     mirror::Texels& texels = mirror::texels();
     texels.nodes.resize(scene.tree.nodes.size() * shared::kNodeTexels);
     std::memcpy(texels.nodes.data(), scene.tree.nodes.data(), texels.nodes.size() * 16);
-    texels.triangles.resize(scene.tree.triangles.size() * shared::kTriangleTexels);
-    std::memcpy(texels.triangles.data(), scene.tree.triangles.data(), texels.triangles.size() * 16);
+    texels.pairs.resize(scene.tree.pairs.size() * shared::kPairTexels);
+    std::memcpy(texels.pairs.data(), scene.tree.pairs.data(), texels.pairs.size() * 16);
     std::vector<TestRay> rays;
     for (int i = 0; i < 4000; ++i)
         rays.push_back({random.inBox(1.5f), 0.0f, random.direction(), kFar});
@@ -219,7 +224,7 @@ TEST(TraverseOracles, BitsAndBytes) {
     }
     DeviceTree tree;
     tree.nodes.resize(1);
-    tree.triangles.resize(1);
+    tree.pairs.resize(1);
     const ShaderLibrary library = traversalOf(tree);
     EXPECT_ORACLES(library, bitsMin, (Budget{0, 0}), a, b);
     EXPECT_ORACLES(library, bitsMax, (Budget{0, 0}), a, b);

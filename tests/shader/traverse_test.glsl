@@ -1,40 +1,54 @@
 // The parts of the traversal that need no tree: see traverse_test.cpp for nodes, traversal_test.cpp for the whole.
 #include "shaders/lib/traverse.glsl"
 
-// Triangles as a test puts them here, 8 of them.
-uvec4 triangleTexels[24];
-uvec4 fetchTriangleTexel(uint index) { return triangleTexels[index]; }
+// Pairs of triangles as a test puts them here, 8 of them.
+uvec4 pairTexels[32];
+uvec4 fetchPairTexel(uint index) { return pairTexels[index]; }
 uvec4 fetchNodeTexel(uint index) { return uvec4(0u); }
 
-// A triangle in the plane z = height, around the z axis.
-void putTriangle(uint index, float height, uint primitive) {
-    uint z = floatBitsToUint(height);
-    triangleTexels[3u * index] = uvec4(floatBitsToUint(-1.0), floatBitsToUint(-1.0), z, primitive);
-    triangleTexels[3u * index + 1u] = uvec4(floatBitsToUint(1.0), floatBitsToUint(-1.0), z, 0u);
-    triangleTexels[3u * index + 2u] = uvec4(floatBitsToUint(0.0), floatBitsToUint(2.0), z, 0u);
+void putPair(uint pair, vec3 v0, vec3 v1, vec3 v2, vec3 v3, uint primitive0, uint primitive1) {
+    pairTexels[4u * pair] = uvec4(floatBitsToUint(v0), primitive0);
+    pairTexels[4u * pair + 1u] = uvec4(floatBitsToUint(v1), 0u);
+    pairTexels[4u * pair + 2u] = uvec4(floatBitsToUint(v2), 0u);
+    pairTexels[4u * pair + 3u] = uvec4(floatBitsToUint(v3), primitive1);
 }
 
-// Along the z axis from the origin, with these triangles of group `base` to test.
+// A single triangle in the plane z = height, around the z axis.
+void putTriangle(uint pair, float height, uint primitive) {
+    vec3 v1 = vec3(1.0, -1.0, height);
+    putPair(pair, vec3(-1.0, -1.0, height), v1, vec3(0.0, 2.0, height), v1, primitive, kNoTriangle);
+}
+
+// Two triangles that both cross the z axis, at these heights: the pair is folded at an edge beside it.
+void putFolded(uint pair, float height0, float height1, uint primitive0, uint primitive1) {
+    float edge = 0.5 * (height0 + height1);
+    putPair(pair, vec3(1.0, 0.0, 2.0 * height0 - edge), vec3(-1.0, -2.0, edge), vec3(-1.0, 2.0, edge),
+            vec3(1.0, 0.0, 2.0 * height1 - edge), primitive0, primitive1);
+}
+
+// Along the z axis from the origin, with these pairs of group `base` to test.
 Traversal alongZ(float tMin, uint after, float tMax, uint base, uint mask) {
     Traversal r = traversalStart(0u, vec3(0.0), vec3(0.0, 0.0, 1.0), tMin, after, tMax, false);
     r.nodesLeft = false;
-    r.triangleBase = base;
-    r.triangleMask = mask;
+    r.pairBase = base;
+    r.pairMask = mask;
     return r;
 }
 
 TEST(TrianglesAreFetchedFromTheirTexels) {
-    for (uint i = 0u; i < 24u; i++) {
+    for (uint i = 0u; i < 32u; i++) {
         uvec2 words = uvec2(randomUint(), randomUint()) >> 2u;  // finite as floats
-        triangleTexels[i] = uvec4(words, words.yx ^ 0x155aau);
+        pairTexels[i] = uvec4(words, words.yx ^ 0x155aau);
     }
-    uint index = randomUint() & 7u;
-    Triangle tri = fetchTriangle(index);
-    EXPECT_EQ(floatBitsToUint(tri.v0), triangleTexels[3u * index].xyz);
-    EXPECT_EQ(floatBitsToUint(tri.v1), triangleTexels[3u * index + 1u].xyz);
-    EXPECT_EQ(floatBitsToUint(tri.v2), triangleTexels[3u * index + 2u].xyz);
-    EXPECT_EQ(tri.primitive, triangleTexels[3u * index].w);
-    EXPECT_EQ(tri.materialFlags, triangleTexels[3u * index + 1u].w);
+    uint pair = randomUint() & 7u;
+    bool second = (randomUint() & 1u) != 0u;
+    Triangle tri = fetchTriangle(2u * pair + (second ? 1u : 0u));
+    uint texel = 4u * pair;
+    EXPECT_EQ(floatBitsToUint(tri.v0), pairTexels[texel + (second ? 3u : 0u)].xyz);
+    EXPECT_EQ(floatBitsToUint(tri.v1), pairTexels[texel + (second ? 2u : 1u)].xyz);
+    EXPECT_EQ(floatBitsToUint(tri.v2), pairTexels[texel + (second ? 1u : 2u)].xyz);
+    EXPECT_EQ(tri.primitive, pairTexels[texel + (second ? 3u : 0u)].w);
+    EXPECT_EQ(tri.materialFlags, pairTexels[texel + (second ? 1u : 2u)].w);
 }
 
 TEST(StartsAtTheRootWithTheRay) {
@@ -63,7 +77,7 @@ TEST(StartsAtTheRootWithTheRay) {
     EXPECT_EQ(r.primitive, kNoTriangle);
     EXPECT_EQ(r.barycentric, vec2(0.0));
     EXPECT_EQ(uvec2(r.groupBase, r.groupMask), uvec2(root, 0x80000000u));
-    EXPECT_EQ(r.triangleMask, 0u);
+    EXPECT_EQ(r.pairMask, 0u);
     EXPECT_EQ(r.stackSize, 0);
     EXPECT_TRUE(traversalAlive(r));
 }
@@ -74,14 +88,14 @@ TEST_N(ZerosOfADirectionCountAsPositive, 1) {
     EXPECT_ULP(r.inverse, vec3(1e20, 1e20, -1.0), 3);
 }
 
-TEST_N(AliveWhileThereAreNodesOrTriangles, 1) {
+TEST_N(AliveWhileThereAreNodesOrPairs, 1) {
     Traversal r = alongZ(0.0, 0u, 1.0, 0u, 0u);
     EXPECT_FALSE(traversalAlive(r));
-    r.triangleMask = 8u;
+    r.pairMask = 8u;
     EXPECT_TRUE(traversalAlive(r));
     r.nodesLeft = true;
     EXPECT_TRUE(traversalAlive(r));
-    r.triangleMask = 0u;
+    r.pairMask = 0u;
     EXPECT_TRUE(traversalAlive(r));
 }
 
@@ -110,26 +124,26 @@ TEST(BytesFromTheLowestUp) {
     EXPECT_EQ(unpackBytes(0xff000000u | (x & 0xffu)), vec4(float(x & 0xffu), 0.0, 0.0, 255.0));
 }
 
-TEST(TrianglesAreTestedFromTheLowestBitUp) {
+TEST(PairsAreTestedFromTheLowestBitUp) {
     for (uint i = 0u; i < 8u; i++) putTriangle(i, 1.0 + float(i), 100u + i);
     uint mask = 1u + (randomUint() & 30u);
     if ((randomUint() & 1u) == 0u) mask &= ~1u;
     mask = mask == 0u ? 16u : mask;
     uint first = mask & (~mask + 1u);
     Traversal r = alongZ(0.0, kNoTriangle, 1e30, 2u, mask);
-    testTriangle(r, false);
-    EXPECT_EQ(r.triangleMask, mask ^ first);
-    EXPECT_EQ(r.triangle, 2u + uint(findLSB(first)));
+    testPair(r, false);
+    EXPECT_EQ(r.pairMask, mask ^ first);
+    EXPECT_EQ(r.triangle, 2u * (2u + uint(findLSB(first))));
     EXPECT_EQ(r.primitive, 102u + uint(findLSB(first)));
     EXPECT_NEAR(r.t, 3.0 + float(findLSB(first)), 1e-6);
     // The origin is a third from v0 to v1 and v2 each.
     EXPECT_NEAR(r.barycentric, vec2(1.0 / 3.0), 1e-6);
     // What comes after is further away, or the same.
     Traversal before = r;
-    r.triangleMask = mask;
-    testTriangle(r, (randomUint() & 1u) == 0u);
+    r.pairMask = mask;
+    testPair(r, (randomUint() & 1u) == 0u);
     EXPECT_EQ(vec3(r.t, r.barycentric), vec3(before.t, before.barycentric));
-    if (r.triangleMask != 0u) testTriangle(r, (randomUint() & 1u) == 0u);
+    if (r.pairMask != 0u) testPair(r, (randomUint() & 1u) == 0u);
     EXPECT_EQ(r.triangle, before.triangle);
 }
 
@@ -138,31 +152,31 @@ TEST(TrianglesAreTestedFromTheLowestBitUp) {
 TEST_N(HitsLieBetweenTheDistances, 1) {
     putTriangle(0u, 2.0, 5u);
     Traversal r = alongZ(2.0, 4u, 9.0, 0u, 1u);
-    testTriangle(r, false);
+    testPair(r, false);
     EXPECT_EQ(r.triangle, kNoTriangle);
     r = alongZ(1.5, 4u, 2.0, 0u, 1u);
-    testTriangle(r, false);
+    testPair(r, false);
     EXPECT_EQ(r.triangle, kNoTriangle);
     EXPECT_EQ(r.t, 2.0);
     r = alongZ(1.5, 9u, 2.5, 0u, 1u);
-    testTriangle(r, false);
+    testPair(r, false);
     EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(0u, 5u));
     EXPECT_EQ(r.t, 2.0);
 
     r = alongZ(2.0, 4u, 9.0, 0u, 1u);
-    testTriangle(r, true);
+    testPair(r, true);
     EXPECT_EQ(r.primitive, 5u);
     r = alongZ(2.0, 5u, 9.0, 0u, 1u);
-    testTriangle(r, true);
+    testPair(r, true);
     EXPECT_EQ(r.primitive, kNoTriangle);
     r = alongZ(2.5, 4u, 9.0, 0u, 1u);
-    testTriangle(r, true);
+    testPair(r, true);
     EXPECT_EQ(r.primitive, kNoTriangle);
     r = alongZ(1.5, 9u, 9.0, 0u, 1u);
-    testTriangle(r, true);
+    testPair(r, true);
     EXPECT_EQ(r.primitive, 5u);
     r = alongZ(1.5, 9u, 1.75, 0u, 1u);
-    testTriangle(r, true);
+    testPair(r, true);
     EXPECT_EQ(r.primitive, kNoTriangle);
 }
 
@@ -171,22 +185,22 @@ TEST_N(OfCoincidentHitsTheFirstPrimitiveIsMetFirst, 1) {
     putTriangle(1u, 2.0, 3u);
     putTriangle(2u, 2.0, 4u);
     Traversal r = alongZ(0.0, kNoTriangle, 9.0, 0u, 7u);
-    testTriangle(r, true);
+    testPair(r, true);
     EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(0u, 5u));
-    testTriangle(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(1u, 3u));
-    testTriangle(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(1u, 3u));
-    EXPECT_EQ(r.triangleMask, 0u);
+    testPair(r, true);
+    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(2u, 3u));
+    testPair(r, true);
+    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(2u, 3u));
+    EXPECT_EQ(r.pairMask, 0u);
     r = alongZ(2.0, 3u, 9.0, 0u, 7u);
-    testTriangle(r, true);
-    testTriangle(r, true);
-    testTriangle(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(2u, 4u));
+    testPair(r, true);
+    testPair(r, true);
+    testPair(r, true);
+    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(4u, 4u));
     // Without order the first that was tested stays.
     r = alongZ(0.0, kNoTriangle, 9.0, 0u, 7u);
-    testTriangle(r, false);
-    testTriangle(r, false);
+    testPair(r, false);
+    testPair(r, false);
     EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(0u, 5u));
 }
 
@@ -194,8 +208,42 @@ TEST(ATriangleThatIsNotHitChangesNothing) {
     putTriangle(0u, 2.0, 5u);
     vec3 beside = normalize(vec3(1.5, randomFloat(-1.0, 1.0), 1.0));
     Traversal r = traversalStart(0u, vec3(0.0), beside, 0.0, kNoTriangle, 9.0, false);
-    r.triangleMask = 1u;
-    testTriangle(r, (randomUint() & 1u) == 0u);
-    EXPECT_EQ(uvec3(r.triangle, r.primitive, r.triangleMask), uvec3(kNoTriangle, kNoTriangle, 0u));
+    r.pairMask = 1u;
+    testPair(r, (randomUint() & 1u) == 0u);
+    EXPECT_EQ(uvec3(r.triangle, r.primitive, r.pairMask), uvec3(kNoTriangle, kNoTriangle, 0u));
     EXPECT_EQ(vec3(r.t, r.barycentric), vec3(9.0, 0.0, 0.0));
+}
+
+// Either may be the nearer one.
+TEST(BothTrianglesOfAPairAreMet) {
+    float heights[2] = {randomFloat(1.0, 4.0), randomFloat(5.0, 9.0)};
+    uint near = randomUint() & 1u;
+    putFolded(1u, heights[near], heights[1u - near], 7u, 8u);
+    Traversal r = alongZ(0.0, kNoTriangle, 20.0, 1u, 1u);
+    testPair(r, (randomUint() & 1u) == 0u);
+    EXPECT_EQ(uvec3(r.triangle, r.primitive, r.pairMask), uvec3(2u + near, 7u + near, 0u));
+    EXPECT_NEAR(r.t, heights[0], 1e-5);
+    // On the axis, half way from the edge to the corner that is not on it: corner 0 and 3 come first.
+    EXPECT_NEAR(r.barycentric, vec2(0.25), 1e-5);
+    // The other one beyond it.
+    r = alongZ(r.t, r.primitive, 20.0, 1u, 1u);
+    testPair(r, true);
+    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(3u - near, 8u - near));
+    EXPECT_NEAR(r.t, heights[1], 1e-5);
+    r = alongZ(r.t, r.primitive, 20.0, 1u, 1u);
+    testPair(r, true);
+    EXPECT_EQ(r.triangle, kNoTriangle);
+}
+
+// Its triangles lie on each other.
+TEST_N(APairFoldedShutIsMetInTheOrderOfPrimitives, 1) {
+    for (uint k = 0u; k < 2u; k++) {
+        putFolded(0u, 3.0, 3.0, 5u + k, 6u - k);
+        Traversal r = alongZ(0.0, kNoTriangle, 9.0, 0u, 1u);
+        testPair(r, true);
+        EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(k, 5u));
+        r = alongZ(r.t, r.primitive, 9.0, 0u, 1u);
+        testPair(r, true);
+        EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(1u - k, 6u));
+    }
 }

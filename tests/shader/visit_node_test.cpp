@@ -20,8 +20,7 @@ struct Visit {
     std::uint32_t groupBase, groupMask;
 };
 struct AfterVisit {
-    std::uint32_t groupBase, groupMask, triangleBase, triangleMask, stackSize, nodesLeft, stackBase,
-        stackMask;
+    std::uint32_t groupBase, groupMask, pairBase, pairMask, stackSize, nodesLeft, stackBase, stackMask;
 };
 
 }  // namespace duolux::test
@@ -31,7 +30,7 @@ DUOLUX_GLSL_TYPE(duolux::test::Visit, "Visit",
                  "uint groupMask;");
 DUOLUX_GLSL_TYPE(
     duolux::test::AfterVisit, "AfterVisit",
-    "uint groupBase; uint groupMask; uint triangleBase; uint triangleMask; uint stackSize; uint nodesLeft; "
+    "uint groupBase; uint groupMask; uint pairBase; uint pairMask; uint stackSize; uint nodesLeft; "
     "uint stackBase; uint stackMask;");
 
 namespace duolux::test {
@@ -44,7 +43,7 @@ shared::WideNode randomNode(Random& random, std::uint32_t index) {
         node.exponent[axis] = static_cast<std::uint8_t>(127 - 8 + random.word() % 3);
     }
     node.childBase = 1000000 + 8 * index;
-    node.triangleBase = 2000000 + 24 * index;
+    node.pairBase = 2000000 + 24 * index;
     std::uint32_t offset = 0;
     for (int slot = 0; slot < 8; ++slot) {
         glm::uvec3 lower, upper;
@@ -57,7 +56,7 @@ shared::WideNode randomNode(Random& random, std::uint32_t index) {
         if (kind <= 2) {
             setChild(node, slot, innerMeta(slot), lower, upper);
         } else {
-            const std::uint32_t count = 1 + random.word() % shared::kMaxLeafTriangles;
+            const std::uint32_t count = 1 + random.word() % shared::kMaxLeafPairs;
             setChild(node, slot, leafMeta(count, offset), lower, upper);
             offset += count;
         }
@@ -118,7 +117,7 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
     constexpr std::uint32_t kNodes = 40000;
     Random random(11);
     DeviceTree tree;
-    tree.triangles.resize(1);
+    tree.pairs.resize(1);
     for (std::uint32_t i = 0; i < kNodes; ++i)
         tree.nodes.push_back(randomNode(random, i));
     std::vector<Visit> visits;
@@ -152,7 +151,7 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
         r.groupBase = x0.groupBase;
         r.groupMask = x0.groupMask;
         visitNode(r);
-        result = AfterVisit(r.groupBase, r.groupMask, r.triangleBase, r.triangleMask, uint(r.stackSize),
+        result = AfterVisit(r.groupBase, r.groupMask, r.pairBase, r.pairMask, uint(r.stackSize),
                             r.nodesLeft ? 1u : 0u, stackBase[0], stackMask[0]);)",
                                                                                  visits);
     std::array<int, 3> seen{};
@@ -160,13 +159,13 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
     for (std::size_t i = 0; i < visits.size(); ++i) {
         const shared::WideNode& node = tree.nodes[visited[i]];
         const AfterVisit& a = after[i];
-        ASSERT_EQ(a.triangleBase, node.triangleBase) << i;
+        ASSERT_EQ(a.pairBase, node.pairBase) << i;
         const std::uint32_t siblings = rest[i] >> 24;
         const bool descended = a.groupBase == node.childBase;
         std::uint32_t octant = 0;
         for (int axis = 0; axis < 3; ++axis)
             octant |= visits[i].ray.direction[axis] < 0.0f ? 0u : 4u >> axis;
-        std::uint32_t triangles = 0, inner = 0;
+        std::uint32_t pairs = 0, inner = 0;
         for (std::uint32_t slot = 0; slot < 8; ++slot) {
             if (node.meta[slot] == 0) continue;
             const Meets expected = meets(node, static_cast<int>(slot), visits[i].ray);
@@ -179,15 +178,15 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
                 const std::uint32_t count = static_cast<std::uint32_t>(std::popcount(node.meta[slot])) -
                                             static_cast<std::uint32_t>(std::popcount(node.meta[slot] & 31u));
                 const std::uint32_t bits = ((1u << count) - 1) << (node.meta[slot] & 31);
-                met = (a.triangleMask & bits) == bits;
-                ASSERT_TRUE(met || (a.triangleMask & bits) == 0) << i;
-                triangles |= met ? bits : 0u;
+                met = (a.pairMask & bits) == bits;
+                ASSERT_TRUE(met || (a.pairMask & bits) == 0) << i;
+                pairs |= met ? bits : 0u;
             }
             childrenMet += met ? 1 : 0;
             ASSERT_TRUE(expected == Meets::kPerhaps || met == (expected == Meets::kYes))
                 << i << ", slot " << slot;
         }
-        ASSERT_EQ(a.triangleMask, triangles) << i;
+        ASSERT_EQ(a.pairMask, pairs) << i;
         if (inner != 0) {  // down; siblings wait
             ASSERT_EQ(a.groupMask, inner | node.innerMask) << i;
             ASSERT_EQ(a.stackSize, siblings != 0 ? 1u : 0u) << i;

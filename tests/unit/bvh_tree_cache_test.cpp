@@ -32,6 +32,7 @@ Geometry sphere(std::uint32_t frequency) {
     Geometry geometry;
     geometry.positions.assign(icosphere.positions.begin(), icosphere.positions.end());
     geometry.triangles = icosphere.triangles;
+    geometry.materials.assign(geometry.triangles.size(), 0);
     return geometry;
 }
 
@@ -44,7 +45,7 @@ std::vector<std::uint32_t> allOf(const Geometry& geometry) {
 void expectSame(const WideBvh& a, const WideBvh& b) {
     ASSERT_EQ(a.nodes.size(), b.nodes.size());
     EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), std::span(a.nodes).size_bytes()), 0);
-    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.pairs, b.pairs);
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.sahCost, b.sahCost);
 }
@@ -74,10 +75,10 @@ class TreeCacheTest : public testing::Test {
         get();
         const fs::path path = files().at(0);
         keepInstead(tree, path);
-        const bool read = readTree(path, treeKey(geometry_, triangles_), triangles_).has_value();
+        const bool read = readTree(path, treeKey(geometry_, triangles_), geometry_, triangles_).has_value();
         if (!read) {
             expectSame(get(), built_);
-            EXPECT_TRUE(readTree(path, treeKey(geometry_, triangles_), triangles_).has_value());
+            EXPECT_TRUE(readTree(path, treeKey(geometry_, triangles_), geometry_, triangles_).has_value());
         }
         return read;
     }
@@ -115,10 +116,10 @@ TEST_F(TreeCacheTest, TellsContentsApart) {
     const std::span<const std::uint32_t> all(triangles_);
     EXPECT_NE(treeKey(geometry_, all.first(10)), key);
     EXPECT_NE(treeKey(geometry_, all.first(10)), treeKey(geometry_, all.last(10)));
-    // Materials are no part of a tree.
+    // No pair has two materials.
     Geometry painted = geometry_;
-    painted.materials.assign(painted.triangles.size(), 3);
-    EXPECT_EQ(treeKey(painted, triangles_), key);
+    painted.materials[7] = 3;
+    EXPECT_NE(treeKey(painted, triangles_), key);
     get();
     expectSame(TreeCache(cache_).tree(moved, triangles_), buildWideBvh(moved, triangles_));
     EXPECT_EQ(files().size(), 2u);
@@ -139,7 +140,7 @@ TEST_F(TreeCacheTest, BuildsAgainWhatIsCorrupt) {
     const TreeKey key = treeKey(geometry_, triangles_);
     const auto replaced = [&](const std::string& bytes) {
         writeFile(path, bytes);
-        EXPECT_FALSE(readTree(path, key, triangles_).has_value());
+        EXPECT_FALSE(readTree(path, key, geometry_, triangles_).has_value());
         expectSame(get(), built_);
         EXPECT_EQ(readFile(path), good);
     };
@@ -175,16 +176,19 @@ TEST_F(TreeCacheTest, ReturnsNoTreeThatLeadsATraversalAstray) {
         return std::size_t{0};
     };
     const auto last = static_cast<std::uint32_t>(built_.nodes.size() - 1);
-    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles[3] = 0xffffffffu; })) << "out of range";
-    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles[3] = 1280; })) << "one too far";
-    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles[3] = t.triangles[4]; })) << "twice";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.pairs[3].first = 0xffffffffu; })) << "out of range";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.pairs[3].second = 1280; })) << "one too far";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.pairs[3] = t.pairs[4]; })) << "twice";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.pairs[3].second = t.pairs[3].first; })) << "a pair with itself";
+    EXPECT_TRUE(refused([](WideBvh& t) { std::swap(t.pairs[3].second, t.pairs[9].second); }))
+        << "pairs without a common edge";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.pairs[3].second = TrianglePair::kNone; })) << "half a pair";
     EXPECT_TRUE(refused([](WideBvh& t) { t.nodes[0].childBase = 0; })) << "a cycle";
     EXPECT_TRUE(refused([](WideBvh& t) { t.nodes[0].childBase += 1; })) << "another child";
     EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[0].childBase = last; })) << "children past the end";
     EXPECT_TRUE(refused([](WideBvh& t) { t.nodes[0].childBase = 0xfffffffcu; })) << "children that wrap";
-    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[last].triangleBase += 1; })) << "another leaf's triangle";
-    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[last].triangleBase = 0xffffffffu; }))
-        << "a leaf past the end";
+    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[last].pairBase += 1; })) << "another leaf's pair";
+    EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[last].pairBase = 0xffffffffu; })) << "a leaf past the end";
     EXPECT_TRUE(refused([&](WideBvh& t) {
         auto& meta = t.nodes[last].meta[slotOf(t.nodes[last], false)];
         meta = static_cast<std::uint8_t>((meta & 31) | 5 << 5);
@@ -194,7 +198,7 @@ TEST_F(TreeCacheTest, ReturnsNoTreeThatLeadsATraversalAstray) {
     EXPECT_TRUE(refused([&](WideBvh& t) { t.nodes[0].meta[slotOf(t.nodes[0], true)] = 0; })) << "no child";
     EXPECT_TRUE(refused([](WideBvh& t) { t.depth += 1; })) << "another depth";
     EXPECT_TRUE(refused([](WideBvh& t) { t.nodes.push_back({}); })) << "a node that nothing leads to";
-    EXPECT_TRUE(refused([](WideBvh& t) { t.triangles.pop_back(); })) << "a triangle less";
+    EXPECT_TRUE(refused([](WideBvh& t) { t.pairs.pop_back(); })) << "a pair less";
 }
 
 /// The stack of a traversal has a place for each level.
@@ -202,10 +206,13 @@ TEST_F(TreeCacheTest, ReturnsNoTreeThatIsTooDeep) {
     for (const std::uint32_t depth : {shared::kMaxTreeDepth + 1, shared::kMaxTreeDepth}) {
         triangles_.resize(2 * depth);
         built_ = buildWideBvh(geometry_, triangles_);
-        WideBvh chain{std::vector<shared::WideNode>(depth), triangles_, depth, 1.0};
+        std::vector<TrianglePair> singles;
+        for (const std::uint32_t triangle : triangles_)
+            singles.push_back({triangle});
+        WideBvh chain{std::vector<shared::WideNode>(depth), singles, depth, 1.0};
         for (std::uint32_t i = 0; i < depth; ++i) {
             shared::WideNode& node = chain.nodes[i];
-            node.triangleBase = 2 * i;
+            node.pairBase = 2 * i;
             node.meta[1] = 3 << 5;
             if (i + 1 == depth) continue;
             node.innerMask = 1;
@@ -235,7 +242,7 @@ TEST_F(TreeCacheTest, DoesWithoutAFolderThatIsReadOnly) {
         if (::geteuid() == 0 && (::chmod(folder_.path().c_str(), 0755) != 0 || ::seteuid(65534) != 0))
             ::_exit(2);
         const WideBvh tree = get();
-        ::_exit(tree.triangles == built_.triangles ? 0 : 1);
+        ::_exit(tree.pairs == built_.pairs ? 0 : 1);
     }
     int status = 0;
     ::waitpid(child, &status, 0);
@@ -250,7 +257,7 @@ TEST_F(TreeCacheTest, LeavesNothingOfAFileThatDidNotFit) {
         const rlimit small{1000, 1000};
         ::signal(SIGXFSZ, SIG_IGN);
         if (::setrlimit(RLIMIT_FSIZE, &small) != 0) ::_exit(2);
-        ::_exit(get().triangles == built_.triangles ? 0 : 1);
+        ::_exit(get().pairs == built_.pairs ? 0 : 1);
     }
     int status = 0;
     ::waitpid(child, &status, 0);
@@ -273,7 +280,7 @@ TEST_F(TreeCacheTest, DeletesWhatWasNotUsedForLongest) {
     const auto kept = [&](std::size_t i) {
         const TreeKey key = treeKey(geometries[i], triangles_);
         for (const fs::path& file : files()) {
-            if (readTree(file, key, triangles_)) return true;
+            if (readTree(file, key, geometries[i], triangles_)) return true;
         }
         return false;
     };
@@ -304,8 +311,8 @@ TEST_F(TreeCacheTest, IsSharedByProcesses) {
         children.push_back(::fork());
         if (children.back() != 0) continue;
         for (int i = 0; i < 50; ++i) {
-            if (cache.tree(geometry_, triangles_).triangles != built_.triangles) ::_exit(1);
-            if (cache.tree(other, all).triangles != otherBuilt.triangles) ::_exit(1);
+            if (cache.tree(geometry_, triangles_).pairs != built_.pairs) ::_exit(1);
+            if (cache.tree(other, all).pairs != otherBuilt.pairs) ::_exit(1);
         }
         ::_exit(0);
     }

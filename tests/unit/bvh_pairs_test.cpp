@@ -1,0 +1,171 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "host/bvh/pairs.h"
+#include "host/scene/icosphere.h"
+
+namespace duolux {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<TrianglePair> pairAll(Geometry geometry) {
+    geometry.materials.resize(geometry.triangles.size());
+    std::vector<std::uint32_t> all(geometry.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return pairTriangles(geometry, all);
+}
+
+/// Of squares of a plane cut in two.
+Geometry grid(std::uint32_t squares) {
+    Geometry geometry;
+    for (std::uint32_t y = 0; y <= squares; ++y) {
+        for (std::uint32_t x = 0; x <= squares; ++x)
+            geometry.positions.emplace_back(x, y, 0.0f);
+    }
+    for (std::uint32_t y = 0; y < squares; ++y) {
+        for (std::uint32_t x = 0; x < squares; ++x) {
+            const std::uint32_t at = y * (squares + 1) + x, above = at + squares + 1;
+            geometry.triangles.push_back({at, at + 1, above + 1});
+            geometry.triangles.push_back({at, above + 1, above});
+        }
+    }
+    geometry.materials.resize(geometry.triangles.size());
+    return geometry;
+}
+
+TEST(Pairs, AreTheHalvesOfSquares) {
+    Geometry geometry = grid(20);
+    std::vector<TrianglePair> pairs = pairAll(geometry);
+    ASSERT_EQ(pairs.size(), 400u);
+    for (std::uint32_t i = 0; i < 400; ++i)
+        EXPECT_EQ(pairs[i], (TrianglePair{2 * i, 2 * i + 1}));
+    // In whatever order they come, and wherever their corners begin.
+    std::mt19937 engine(3);
+    std::shuffle(geometry.triangles.begin(), geometry.triangles.end(), engine);
+    for (std::size_t i = 0; i < geometry.triangles.size(); i += 3) {
+        glm::uvec3& t = geometry.triangles[i];
+        t = {t.y, t.z, t.x};
+    }
+    pairs = pairAll(geometry);
+    EXPECT_EQ(pairs.size(), 400u);
+    for (const TrianglePair& pair : pairs) {
+        glm::vec3 lower(1e9f), upper(-1e9f);
+        const PairCorners corners = cornersOf(geometry, pair).value();
+        for (const std::uint32_t corner : corners.positions) {
+            lower = glm::min(lower, geometry.positions[corner]);
+            upper = glm::max(upper, geometry.positions[corner]);
+        }
+        EXPECT_EQ(upper - lower, glm::vec3(1.0f, 1.0f, 0.0f));
+    }
+}
+
+/// Whatever is paired, all corners of both triangles are there, in order.
+void expectCorners(const Geometry& geometry, const std::vector<TrianglePair>& pairs) {
+    std::multiset<std::uint32_t> seen;
+    for (const TrianglePair& pair : pairs) {
+        const PairCorners corners = cornersOf(geometry, pair).value();
+        const auto& p = corners.positions;
+        const glm::uvec3 first{p[0], p[1], p[2]}, second{p[3], p[2], p[1]};
+        const glm::uvec3 a = geometry.triangles[pair.first];
+        seen.insert(pair.first);
+        for (std::uint32_t k = 0; k < 3; ++k)
+            EXPECT_EQ(first[static_cast<int>(k)], a[static_cast<int>((corners.turns[0] + k) % 3)]);
+        if (pair.isSingle()) {
+            EXPECT_EQ(p[3], p[1]) << "a degenerate triangle, which nothing hits";
+            continue;
+        }
+        seen.insert(pair.second);
+        const glm::uvec3 b = geometry.triangles[pair.second];
+        for (std::uint32_t k = 0; k < 3; ++k)
+            EXPECT_EQ(second[static_cast<int>(k)], b[static_cast<int>((corners.turns[1] + k) % 3)]);
+    }
+    std::multiset<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i)
+        all.insert(i);
+    EXPECT_EQ(seen, all);
+}
+
+TEST(Pairs, OfAClosedMeshAreNearlyAll) {
+    const Icosphere icosphere = makeIcosphere(20);
+    Geometry geometry;
+    geometry.positions.assign(icosphere.positions.begin(), icosphere.positions.end());
+    geometry.triangles = icosphere.triangles;
+    geometry.materials.resize(geometry.triangles.size());
+    std::mt19937 engine(5);
+    for (glm::uvec3& t : geometry.triangles) {
+        for (std::uint32_t turns = engine() % 3; turns > 0; --turns)
+            t = {t.y, t.z, t.x};
+    }
+    const std::vector<TrianglePair> pairs = pairAll(geometry);
+    expectCorners(geometry, pairs);
+    EXPECT_LT(static_cast<double>(pairs.size()), 0.6 * static_cast<double>(geometry.triangles.size()));
+}
+
+TEST(Pairs, AreNotMadeWhereTwoBoxesAreSmallerThanOne) {
+    Geometry geometry;
+    geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    // At a right angle, of boxes without volume.
+    geometry.triangles = {{0, 1, 2}, {1, 0, 3}};
+    EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0}, TrianglePair{1}));
+    // In one plane.
+    geometry.positions[3] = {1, -1, 0};
+    EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0, 1}));
+}
+
+TEST(Pairs, RunAlongTheirEdgeInOppositeDirections) {
+    Geometry geometry;
+    geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -1, 0}};
+    geometry.triangles = {{0, 1, 2}, {0, 1, 3}};
+    EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0}, TrianglePair{1}));
+    EXPECT_FALSE(cornersOf(geometry, {0, 1}).has_value());
+    // An edge with three triangles: two are a pair.
+    geometry.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 2}};
+    EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0, 1}, TrianglePair{2}));
+    expectCorners(geometry, pairAll(geometry));
+}
+
+TEST(Pairs, OfDegenerateTriangles) {
+    Geometry geometry;
+    geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    geometry.triangles = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, 1, 2}, {1, 0, 0}, {2, 1, 0}, {0, 1, 2}};
+    expectCorners(geometry, pairAll(geometry));
+}
+
+/// Copies of emitters in a tree of their own are met at the same distances.
+TEST(Pairs, OfOneMaterialDoNotDependOnOthers) {
+    const Icosphere icosphere = makeIcosphere(12);
+    Geometry geometry;
+    geometry.positions.assign(icosphere.positions.begin(), icosphere.positions.end());
+    geometry.triangles = icosphere.triangles;
+    std::mt19937 engine(9);
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
+        geometry.materials.push_back(engine() % 4 == 0 ? 1 : 0);
+        if (geometry.materials.back() == 1) some.push_back(i);
+    }
+    std::vector<TrianglePair> ofAll;
+    for (const TrianglePair& pair : pairAll(geometry)) {
+        if (!pair.isSingle()) {
+            EXPECT_EQ(geometry.materials[pair.first], geometry.materials[pair.second]);
+        }
+        if (geometry.materials[pair.first] == 1) ofAll.push_back(pair);
+    }
+    EXPECT_EQ(pairTriangles(geometry, some), ofAll);
+    EXPECT_LT(ofAll.size(), some.size());
+}
+
+TEST(Pairs, OfSomeTrianglesAreAmongThose) {
+    const Geometry geometry = grid(2);
+    const std::vector<std::uint32_t> some{1, 2, 3, 6};
+    EXPECT_THAT(pairTriangles(geometry, some),
+                ElementsAre(TrianglePair{1}, TrianglePair{2, 3}, TrianglePair{6}));
+}
+
+}  // namespace
+}  // namespace duolux
