@@ -127,7 +127,8 @@ class PathTracer {
             throughput *= material.diffuse;
             radiance += throughput * directLight({position, normal, material.diffuse}, random);
             const float weight = largest(throughput);
-            const float survival = scatterings >= 2 ? (weight < 1.0f ? std::min(weight, 0.95f) : 1.0f) : 1.0f;
+            const float survival =
+                scatterings >= 2 && weight < 1.0f ? std::min(std::sqrt(weight), 0.95f) : 1.0f;
             if (random.uniform() >= survival) return radiance;
             throughput /= survival;
             const vec3 local = cosineHemisphere(random);

@@ -177,10 +177,8 @@ bool endSegment(LightPath path, inout Vertex vertex) {
     vertex.weightSum = 0.0;
     if (!kInvisibleScatters && !kSecondColumn) return false;
     if (!(weightSum > 0.0) || path.scatterings + 1u >= params.bounces) return false;
-    // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted. Where
-    // that grows (crossing surfaces that also scatter) every particle survives and carries the growth.
-    float relative = weightSum / path.emitted;
-    float survival = path.scatterings >= 2u && relative < 1.0 ? min(relative, 0.95) : 1.0;
+    // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted.
+    float survival = path.scatterings >= 2u ? survivalProbability(weightSum / path.emitted) : 1.0;
     uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
     vertex.flux = lightScale(vertex.flux, vec3(weightSum / (vertex.weight * survival)));
     return sampleChoice(path.id.y, path.id.x, choice, params.seed).y < survival;

@@ -174,9 +174,8 @@ void endSegment(inout Path path, inout Vertex vertex, uint pixel, uint sampleInd
     vertex.weightSum = 0.0;
     path.ended = true;
     if (!kPathsGoOn || !(weightSum > 0.0)) return;
-    // Russian roulette on the importance that all vertices of the segment would carry, in units of the camera's. Where
-    // that grows (crossing surfaces that also scatter) every path survives and carries the growth.
-    float survival = path.scatterings >= 2u ? (weightSum < 1.0 ? min(weightSum, 0.95) : 1.0) : 1.0;
+    // Russian roulette on the importance that all vertices of the segment would carry, in units of the camera's.
+    float survival = path.scatterings >= 2u ? survivalProbability(weightSum) : 1.0;
     uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
     if (sampleChoice(pixel, sampleIndex, choice, params.seed).y >= survival) return;
 

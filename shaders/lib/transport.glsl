@@ -41,4 +41,9 @@ bool canCross(LightMatrix w) {
            (kVisibleCrosses && maxComponent(w.m01 + w.m11) > 0.0);
 }
 
+// Russian roulette: the probability that a path goes on which carries `weight` of what it began with. The square root
+// lets paths fade instead of all carrying the same until they end: less noise for the rays traced. Where weights grow
+// (crossing surfaces that also scatter) every path survives and carries the growth.
+float survivalProbability(float weight) { return weight < 1.0 ? min(sqrt(weight), 0.95) : 1.0; }
+
 #endif

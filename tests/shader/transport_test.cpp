@@ -248,6 +248,22 @@ void setMirrorMaterials() {
     std::memcpy(mirror::texels().materials.data(), records.data(), std::as_bytes(std::span(records)).size());
 }
 
+TEST(Transport, PathsSurviveByTheRootOfTheirWeight) {
+    const std::vector<float> weights{0.0f, 1e-12f, 0.04f, 0.25f, 0.81f, 0.95f, 0.99999f, 1.0f, 1.5f, 100.0f};
+    const auto survival = transport().call<float>("survivalProbability", weights);
+    const std::vector<float> expected{0.0f, 1e-6f, 0.2f, 0.5f, 0.9f, 0.95f, 0.95f, 1.0f, 1.0f, 1.0f};
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        EXPECT_NEAR(survival[i], expected[i], 1e-6f * expected[i]) << weights[i];
+}
+
+TEST(TransportOracles, RouletteIsTheSame) {
+    std::vector<float> weights;
+    for (int i = 0; i <= 1000; ++i)
+        weights.push_back(1e-3f * static_cast<float>(i * i) / 500.0f);
+    const ShaderLibrary library = transport();
+    EXPECT_ORACLES(library, survivalProbability, (Budget{3, 1e-7}), weights);
+}
+
 TEST(TransportOracles, MaterialsAreFetchedTheSame) {
     setMirrorMaterials();
     const ShaderLibrary library = transport();
