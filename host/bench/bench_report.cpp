@@ -56,8 +56,8 @@ std::string benchTable(std::span<const BenchResult> results) {
             perItem += fmt::format("{:<{}} {:>8.1f}   {}\n", r.name, width, value, note);
     }
     if (!perRay.empty()) {
-        table += fmt::format("\n{:<{}} {:>8} {:>8} {:>8}   lanes busy in nodes, triangles\n{}", "per ray",
-                             width, "nodes", "tests", "bytes", perRay);
+        table += fmt::format("\n{:<{}} {:>8} {:>8} {:>8}   lanes busy in nodes, pairs\n{}", "per ray", width,
+                             "nodes", "tests", "bytes", perRay);
     }
     if (!perItem.empty()) table += "\n" + perItem;
     return table;

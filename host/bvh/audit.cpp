@@ -47,12 +47,16 @@ class Audit {
         }
         std::vector<int> uses(geometry_.triangles.size());
         for (const TrianglePair& pair : bvh_.pairs) {
+            bool inRange = true;
             for (std::uint32_t t : trianglesOf(pair)) {
-                if (t >= uses.size())
-                    return fail("triangle index {} is out of range", t), std::move(problems_);
-                ++uses[t];
+                if (t < uses.size()) {
+                    ++uses[t];
+                } else {
+                    fail("triangle index {} is out of range", t);
+                    inRange = false;
+                }
             }
-            if (!cornersOf(geometry_, pair))
+            if (inRange && !cornersOf(geometry_, pair))
                 fail("triangles {} and {} have no common edge", pair.first, pair.second);
         }
         for (std::uint32_t t : triangles_)

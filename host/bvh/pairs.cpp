@@ -1,6 +1,7 @@
 #include "host/bvh/pairs.h"
 
 #include <limits>
+#include <numeric>
 
 #include "host/base/parallel.h"
 
@@ -62,14 +63,12 @@ std::vector<TrianglePair> pairTriangles(const Geometry& geometry, std::span<cons
         if (taken[i] != 0) continue;
         taken[i] = 1;
         const glm::uvec3 corners = geometry.triangles[triangles[i]];
-        const std::uint32_t material = geometry.materials[triangles[i]];
         const Aabb box = boundsOf(geometry, triangles[i]);
         std::optional<std::uint32_t> best;
         float smallest = std::numeric_limits<float>::infinity();
         for (int k = 0; k < 3; ++k) {
             for (const Edges::Edge& edge : edges.from(corners[(k + 1) % 3])) {
                 if (edge.end != corners[k] || taken[edge.owner] != 0) continue;
-                if (geometry.materials[triangles[edge.owner]] != material) continue;
                 const Aabb other = boundsOf(geometry, triangles[edge.owner]);
                 Aabb both = box;
                 both.grow(other);
@@ -83,6 +82,12 @@ std::vector<TrianglePair> pairTriangles(const Geometry& geometry, std::span<cons
         if (best) taken[*best] = 1;
     }
     return pairs;
+}
+
+std::vector<std::uint32_t> allTriangles(const Geometry& geometry) {
+    std::vector<std::uint32_t> all(geometry.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
 }
 
 std::vector<PrimitiveRef> boxesOf(const Geometry& geometry, std::span<const TrianglePair> pairs) {

@@ -22,11 +22,12 @@ struct TrianglePair {
     bool operator==(const TrianglePair&) const = default;
 };
 
-/// Sorts triangles (each at most once) into pairs: each takes, of the neighbours of its material that are
-/// left, the one with which it has the smallest box, unless two boxes are smaller than one. So all triangles
-/// of some materials are paired alike with or without the others: a ray that meets two copies of one of them,
-/// in two trees, does so at the same distance to the bit.
+/// Sorts triangles (each at most once) into pairs: each takes, of the neighbours that are left, the one with
+/// which it has the smallest box, unless two boxes are smaller than one.
 std::vector<TrianglePair> pairTriangles(const Geometry& geometry, std::span<const std::uint32_t> triangles);
+
+/// Indices of all triangles, in order.
+std::vector<std::uint32_t> allTriangles(const Geometry& geometry);
 
 /// Around each pair; its number is the primitive's.
 std::vector<PrimitiveRef> boxesOf(const Geometry& geometry, std::span<const TrianglePair> pairs);

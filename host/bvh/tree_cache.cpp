@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -96,9 +95,7 @@ WideBvh cachedWideBvh(const Geometry& geometry, std::span<const std::uint32_t> t
 }
 
 WideBvh cachedWideBvh(const Geometry& geometry) {
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return cachedWideBvh(geometry, all);
+    return cachedWideBvh(geometry, allTriangles(geometry));
 }
 
 }  // namespace duolux

@@ -153,7 +153,6 @@ TreeKey treeKey(const Geometry& geometry, std::span<const std::uint32_t> triangl
     hash.add(std::span<const std::uint64_t>(sizes));
     hash.add(std::span<const glm::vec3>(geometry.positions));
     hash.add(std::span<const glm::uvec3>(geometry.triangles));
-    hash.add(std::span<const std::uint32_t>(geometry.materials));
     hash.add(triangles);
     return hash.result();
 }

@@ -8,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
@@ -305,9 +304,7 @@ WideBvh buildWideBvh(const Geometry& geometry, std::span<const std::uint32_t> tr
 }
 
 WideBvh buildWideBvh(const Geometry& geometry) {
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return buildWideBvh(geometry, all);
+    return buildWideBvh(geometry, allTriangles(geometry));
 }
 
 }  // namespace duolux

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "host/base/parallel.h"
 #include "host/bvh/tree_cache.h"
@@ -72,9 +71,7 @@ struct Trees {
 /// What the driver is to build trees over: all triangles, and behind them copies of the emitters.
 Trees listTriangles(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
     Trees trees;
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    trees.pairs = pairTriangles(geometry, all);
+    trees.pairs = pairTriangles(geometry, allTriangles(geometry));
     if (emitters.empty()) return trees;
     trees.emitterRoot = 2 * static_cast<std::uint32_t>(trees.pairs.size());
     const std::vector<TrianglePair> second = pairTriangles(geometry, emitters);

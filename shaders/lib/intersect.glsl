@@ -18,10 +18,24 @@ struct TriangleHit {
     vec2 barycentric;  // of v1 and v2
 };
 
+// Minimum and maximum on the bits as integers: the same as on floats as long as the result is not negative, without
+// the handling of NaN. Whatever the signs, they are the two numbers.
+float bitsMin(float a, float b) { return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b))); }
+float bitsMax(float a, float b) { return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b))); }
+
+// Rounded alike in whatever order they come: the number with the largest bits is added last.
+float sumOfThree(float a, float b, float c) {
+    float larger = bitsMax(a, b);
+    precise float rest = bitsMin(a, b) + bitsMin(larger, c);
+    precise float sum = rest + bitsMax(larger, c);
+    return sum;
+}
+
 // Watertight: a vertex is projected along the ray by arithmetic that depends on the vertex and the ray alone, and the
 // edge functions of the two triangles at an edge are exact negatives, so that a ray cannot pass between them (the
 // principle of Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, with an orthonormal
-// basis in place of the shear). Both sides are hit. A degenerate triangle is not.
+// basis in place of the shear). Both sides are hit. A degenerate triangle is not. Distance and weights are the same to
+// the bit whichever corner comes first, so that copies of a triangle are met at one distance.
 // `axisU`, `axisV` and `direction` are orthonormal.
 TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 axisU, vec3 axisV) {
     vec3 a = tri.v0 - origin;
@@ -36,11 +50,14 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     precise float u = cx * by - cy * bx;
     precise float v = ax * cy - ay * cx;
     precise float w = bx * ay - by * ax;
-    precise float det = u + v + w;
+    precise float det = sumOfThree(u, v, w);
     // Of the corners. Products of lengths would leave the range of a float sooner than those of areas do.
     precise vec3 weights = vec3(u, v, w) * (1.0 / det);
     // A ray that goes on behind a surface knows it by its distance: wherever this is compiled it must be the same.
-    precise float t = weights.x * dot(a, direction) + weights.y * dot(b, direction) + weights.z * dot(c, direction);
+    precise float ta = weights.x * dot(a, direction);
+    precise float tb = weights.y * dot(b, direction);
+    precise float tc = weights.z * dot(c, direction);
+    precise float t = sumOfThree(ta, tb, tc);
     bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
     return TriangleHit(inside && det != 0.0, t, vec2(weights.y, weights.z));
 }

@@ -76,11 +76,6 @@ Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uin
 
 bool traversalAlive(Traversal r) { return r.nodesLeft || r.pairMask != 0u; }
 
-// Minimum and maximum on the bits as integers: the same as on floats as long as the result is not negative, without
-// the handling of NaN. In the slab test a negative result is only compared with 0.
-float bitsMin(float a, float b) { return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b))); }
-float bitsMax(float a, float b) { return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b))); }
-
 vec4 unpackBytes(uint x) {
     return vec4(float(int(x & 255u)), float(int((x >> 8u) & 255u)), float(int((x >> 16u) & 255u)), float(int(x >> 24u)));
 }

@@ -8,9 +8,8 @@
 //
 // Triangles: in pairs that share an edge, 64 bytes = 4 texels: corner k in xyz of texel k. Triangle 0 of a
 // pair has the corners 0 1 2, triangle 1 has 3 2 1 (the edge from 1 to 2 is both's). Of each the w of the
-// first texel is the primitive, that of the third the material with flags. Where there is no triangle 1,
-// corner 3 is corner
-// 1. Triangle k of pair p is triangle 2p + k.
+// first texel is the primitive, that of the third the material with flags. Where there is no triangle 1, its
+// corner 3 is the same as corner 1. Triangle k of pair p is triangle 2p + k.
 #ifndef DUOLUX_SHADERS_SHARED_BVH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_BVH_LAYOUT_H
 

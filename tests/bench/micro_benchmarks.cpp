@@ -38,9 +38,7 @@ const TwoSpheres& twoSpheres(std::int64_t triangles) {
 }
 
 std::vector<TrianglePair> pairsOf(const Geometry& geometry) {
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return pairTriangles(geometry, all);
+    return pairTriangles(geometry, allTriangles(geometry));
 }
 
 void countTriangles(benchmark::State& state, const Geometry& geometry) {

@@ -287,3 +287,52 @@ TEST(BoxesAreTouchedAtTMin) {
     EXPECT_TRUE(intersectBox(vec3(0.0), d, 4.0, lower, upper));
     EXPECT_FALSE(intersectBox(vec3(0.0), d, 4.0001, lower, upper));
 }
+
+// With a negative operand, too, as long as the result is not negative; else it is some negative number.
+TEST(MinimumAndMaximumOnBits) {
+    float a = randomScale(-60.0, 60.0);
+    float b = (randomUint() & 7u) == 0u ? 0.0 : randomScale(-60.0, 60.0);
+    EXPECT_EQ(bitsMin(a, b), min(a, b));
+    EXPECT_EQ(bitsMin(b, a), min(a, b));
+    EXPECT_EQ(bitsMax(a, b), max(a, b));
+    EXPECT_EQ(bitsMax(b, a), max(a, b));
+    EXPECT_EQ(bitsMax(-a, b), b);
+    EXPECT_EQ(bitsMax(b, -a), b);
+    EXPECT_LT(bitsMin(-a, b), 0.0);
+    EXPECT_LT(bitsMin(-a, -b - 1e-30), 0.0);
+    EXPECT_LT(bitsMax(-a, -b - 1e-30), 0.0);
+    float infinity = uintBitsToFloat(0x7f800000u);
+    EXPECT_EQ(bitsMin(a, infinity), a);
+    EXPECT_EQ(bitsMax(a, infinity), infinity);
+}
+
+TEST(SumsOfThreeDoNotDependOnTheirOrder) {
+    float a = randomScale(-20.0, 0.0) * ((randomUint() & 1u) == 0u ? 1.0 : -1.0);
+    float b = randomScale(-20.0, 0.0) * ((randomUint() & 1u) == 0u ? 1.0 : -1.0);
+    float c = (randomUint() & 7u) == 0u ? a : -randomScale(-20.0, 0.0);
+    float sum = sumOfThree(a, b, c);
+    EXPECT_NEAR(sum, a + b + c, 4e-7 * (abs(a) + abs(b) + abs(c)));
+    EXPECT_EQ(sumOfThree(b, c, a), sum);
+    EXPECT_EQ(sumOfThree(c, a, b), sum);
+    EXPECT_EQ(sumOfThree(c, b, a), sum);
+    EXPECT_EQ(sumOfThree(a, c, b), sum);
+    EXPECT_EQ(sumOfThree(b, a, c), sum);
+}
+
+// In memory it begins with another corner wherever it has another neighbour in its pair.
+TEST(ATriangleIsMetAlikeWhicheverCornerComesFirst) {
+    float scale = exp2(randomFloat(-20.0, 20.0));
+    Triangle tri = scaled(randomTriangle(), scale, randomVec3(-10.0, 10.0) * scale);
+    vec3 direction = randomDirectionAcross(tri);
+    vec3 origin = at(tri, randomInside(-0.1)) - direction * (scale * randomFloat(0.0, 10.0));
+    TriangleHit h = shoot(tri, origin, direction);
+    TriangleHit turned = shoot(triangleOf(tri.v1, tri.v2, tri.v0), origin, direction);
+    EXPECT_EQ(turned.hit, h.hit);
+    EXPECT_EQ(turned.t, h.t);
+    EXPECT_EQ(turned.barycentric.x, h.barycentric.y);
+    TriangleHit twice = shoot(triangleOf(tri.v2, tri.v0, tri.v1), origin, direction);
+    EXPECT_EQ(twice.hit, h.hit);
+    EXPECT_EQ(twice.t, h.t);
+    EXPECT_EQ(twice.barycentric.y, h.barycentric.x);
+    EXPECT_EQ(twice.barycentric.x, turned.barycentric.y);
+}

@@ -99,24 +99,6 @@ TEST_N(AliveWhileThereAreNodesOrPairs, 1) {
     EXPECT_TRUE(traversalAlive(r));
 }
 
-// With a negative operand, too, as long as the result is not negative; else it is some negative number.
-TEST(MinimumAndMaximumOnBits) {
-    float a = randomScale(-60.0, 60.0);
-    float b = (randomUint() & 7u) == 0u ? 0.0 : randomScale(-60.0, 60.0);
-    EXPECT_EQ(bitsMin(a, b), min(a, b));
-    EXPECT_EQ(bitsMin(b, a), min(a, b));
-    EXPECT_EQ(bitsMax(a, b), max(a, b));
-    EXPECT_EQ(bitsMax(b, a), max(a, b));
-    EXPECT_EQ(bitsMax(-a, b), b);
-    EXPECT_EQ(bitsMax(b, -a), b);
-    EXPECT_LT(bitsMin(-a, b), 0.0);
-    EXPECT_LT(bitsMin(-a, -b - 1e-30), 0.0);
-    EXPECT_LT(bitsMax(-a, -b - 1e-30), 0.0);
-    float infinity = uintBitsToFloat(0x7f800000u);
-    EXPECT_EQ(bitsMin(a, infinity), a);
-    EXPECT_EQ(bitsMax(a, infinity), infinity);
-}
-
 TEST(BytesFromTheLowestUp) {
     uint x = randomUint();
     uvec4 bytes = uvec4(x, x >> 8u, x >> 16u, x >> 24u) & 255u;

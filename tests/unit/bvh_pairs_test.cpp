@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <random>
 #include <set>
 
@@ -14,11 +13,8 @@ namespace {
 
 using testing::ElementsAre;
 
-std::vector<TrianglePair> pairAll(Geometry geometry) {
-    geometry.materials.resize(geometry.triangles.size());
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return pairTriangles(geometry, all);
+std::vector<TrianglePair> pairAll(const Geometry& geometry) {
+    return pairTriangles(geometry, allTriangles(geometry));
 }
 
 /// Of squares of a plane cut in two.
@@ -35,7 +31,6 @@ Geometry grid(std::uint32_t squares) {
             geometry.triangles.push_back({at, above + 1, above});
         }
     }
-    geometry.materials.resize(geometry.triangles.size());
     return geometry;
 }
 
@@ -96,7 +91,6 @@ TEST(Pairs, OfAClosedMeshAreNearlyAll) {
     Geometry geometry;
     geometry.positions.assign(icosphere.positions.begin(), icosphere.positions.end());
     geometry.triangles = icosphere.triangles;
-    geometry.materials.resize(geometry.triangles.size());
     std::mt19937 engine(5);
     for (glm::uvec3& t : geometry.triangles) {
         for (std::uint32_t turns = engine() % 3; turns > 0; --turns)
@@ -135,29 +129,6 @@ TEST(Pairs, OfDegenerateTriangles) {
     geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     geometry.triangles = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, 1, 2}, {1, 0, 0}, {2, 1, 0}, {0, 1, 2}};
     expectCorners(geometry, pairAll(geometry));
-}
-
-/// Copies of emitters in a tree of their own are met at the same distances.
-TEST(Pairs, OfOneMaterialDoNotDependOnOthers) {
-    const Icosphere icosphere = makeIcosphere(12);
-    Geometry geometry;
-    geometry.positions.assign(icosphere.positions.begin(), icosphere.positions.end());
-    geometry.triangles = icosphere.triangles;
-    std::mt19937 engine(9);
-    std::vector<std::uint32_t> some;
-    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-        geometry.materials.push_back(engine() % 4 == 0 ? 1 : 0);
-        if (geometry.materials.back() == 1) some.push_back(i);
-    }
-    std::vector<TrianglePair> ofAll;
-    for (const TrianglePair& pair : pairAll(geometry)) {
-        if (!pair.isSingle()) {
-            EXPECT_EQ(geometry.materials[pair.first], geometry.materials[pair.second]);
-        }
-        if (geometry.materials[pair.first] == 1) ofAll.push_back(pair);
-    }
-    EXPECT_EQ(pairTriangles(geometry, some), ofAll);
-    EXPECT_LT(ofAll.size(), some.size());
 }
 
 TEST(Pairs, OfSomeTrianglesAreAmongThose) {

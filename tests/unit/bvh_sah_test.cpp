@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <random>
 
 #include "host/base/temporary_folder.h"
@@ -104,9 +103,7 @@ double sahCost(const BinaryBvh& bvh) {
 
 /// What the tree of a scene is built over.
 Refs refsOf(const Geometry& geometry) {
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return boxesOf(geometry, pairTriangles(geometry, all));
+    return boxesOf(geometry, pairTriangles(geometry, allTriangles(geometry)));
 }
 
 Refs trianglesOf(const Geometry& geometry) {
@@ -129,7 +126,6 @@ Refs soup(int count, Edges&& edges) {
         geometry.positions.insert(geometry.positions.end(), {a, a + first, a + second});
         const auto base = static_cast<std::uint32_t>(3 * i);
         geometry.triangles.push_back({base, base + 1, base + 2});
-        geometry.materials.push_back(0);
     }
     return refsOf(geometry);
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "host/bvh/binary_bvh.h"
@@ -29,14 +28,8 @@ Geometry randomTriangles(int count, float size) {
     return geometry;
 }
 
-std::vector<std::uint32_t> allOf(const Geometry& geometry) {
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
-}
-
 std::vector<std::string> auditAll(const WideBvh& bvh, const Geometry& geometry) {
-    return auditWideBvh(bvh, geometry, allOf(geometry));
+    return auditWideBvh(bvh, geometry, allTriangles(geometry));
 }
 
 class WideBvhOfSize : public testing::TestWithParam<int> {};

@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
-#include <numeric>
 #include <thread>
 
 #include "host/base/file.h"
@@ -32,14 +31,7 @@ Geometry sphere(std::uint32_t frequency) {
     Geometry geometry;
     geometry.positions.assign(icosphere.positions.begin(), icosphere.positions.end());
     geometry.triangles = icosphere.triangles;
-    geometry.materials.assign(geometry.triangles.size(), 0);
     return geometry;
-}
-
-std::vector<std::uint32_t> allOf(const Geometry& geometry) {
-    std::vector<std::uint32_t> all(geometry.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
 }
 
 void expectSame(const WideBvh& a, const WideBvh& b) {
@@ -86,7 +78,7 @@ class TreeCacheTest : public testing::Test {
     TemporaryFolder folder_;
     fs::path cache_ = folder_ / "a" / "duolux";
     Geometry geometry_ = sphere(8);
-    std::vector<std::uint32_t> triangles_ = allOf(geometry_);
+    std::vector<std::uint32_t> triangles_ = allTriangles(geometry_);
     WideBvh built_ = buildWideBvh(geometry_, triangles_);
 };
 
@@ -116,10 +108,10 @@ TEST_F(TreeCacheTest, TellsContentsApart) {
     const std::span<const std::uint32_t> all(triangles_);
     EXPECT_NE(treeKey(geometry_, all.first(10)), key);
     EXPECT_NE(treeKey(geometry_, all.first(10)), treeKey(geometry_, all.last(10)));
-    // No pair has two materials.
+    // Materials are no part of a tree.
     Geometry painted = geometry_;
-    painted.materials[7] = 3;
-    EXPECT_NE(treeKey(painted, triangles_), key);
+    painted.materials.assign(painted.triangles.size(), 3);
+    EXPECT_EQ(treeKey(painted, triangles_), key);
     get();
     expectSame(TreeCache(cache_).tree(moved, triangles_), buildWideBvh(moved, triangles_));
     EXPECT_EQ(files().size(), 2u);
@@ -155,7 +147,7 @@ TEST_F(TreeCacheTest, BuildsAgainWhatIsCorrupt) {
     replaced(good + "x");
     // Another scene's tree.
     const Geometry other = sphere(9);
-    const std::vector<std::uint32_t> all = allOf(other);
+    const std::vector<std::uint32_t> all = allTriangles(other);
     TreeCache(folder_ / "other").tree(other, all);
     replaced(readFile(fs::directory_iterator(folder_ / "other")->path()));
 }
@@ -303,7 +295,7 @@ TEST_F(TreeCacheTest, KeepsNothingLargerThanAllMayBe) {
 TEST_F(TreeCacheTest, IsSharedByProcesses) {
     // With room for one of the two trees: each writes, reads and deletes under the other's hands.
     const Geometry other = sphere(7);
-    const std::vector<std::uint32_t> all = allOf(other);
+    const std::vector<std::uint32_t> all = allTriangles(other);
     const WideBvh otherBuilt = buildWideBvh(other, all);
     const TreeCache cache(cache_, treeFileBytes(built_) + 100);
     std::vector<pid_t> children;
@@ -330,7 +322,7 @@ class UserCache : public TreeCacheTest {
   protected:
     UserCache() {
         geometry_ = sphere(58);  // 67,280 triangles: enough to be kept
-        triangles_ = allOf(geometry_);
+        triangles_ = allTriangles(geometry_);
         for (const char* name : {"XDG_CACHE_HOME", "HOME", "DUOLUX_NO_CACHE"}) {
             const char* value = std::getenv(name);
             if (value != nullptr) before_[name] = value;
