@@ -1,5 +1,6 @@
 #include "host/gpu/device_scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -88,9 +89,11 @@ AccelerationStructure buildStructure(const Device& device, const Buffer& buffer,
     };
     std::vector<AccelerationStructure::Part> parts{part(0, count - emitters, shared::kMaskAll)};
     if (emitters > 0) parts.push_back(part(count - emitters, emitters, shared::kMaskEmitters));
+    // Emitters may have more pairs among themselves than with all others.
+    const std::uint32_t most = std::max(count - emitters, emitters);
     std::vector<std::uint32_t> indices;
-    indices.reserve(std::size_t{6} * (count - emitters));
-    for (std::uint32_t pair = 0; pair < count - emitters; ++pair) {
+    indices.reserve(std::size_t{6} * most);
+    for (std::uint32_t pair = 0; pair < most; ++pair) {
         for (const std::uint32_t corner : {0u, 1u, 2u, 3u, 2u, 1u})
             indices.push_back(shared::kPairTexels * pair + corner);
     }
