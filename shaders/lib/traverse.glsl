@@ -116,6 +116,10 @@ void visitNode(inout Traversal r) {
     stackBase[r.stackSize] = r.groupBase;
     stackMask[r.stackSize] = r.groupMask;
     r.stackSize += r.groupMask > 0x00ffffffu ? 1 : 0;
+    // What comes next if no child is hit, read before that is known: the node's way through the processor is the longer.
+    int top = max(r.stackSize - 1, 0);
+    uint topBase = stackBase[top];
+    uint topMask = stackMask[top];
 
     uint texel = node * kNodeTexels;
     uvec4 w0 = fetchNodeTexel(texel);
@@ -136,9 +140,9 @@ void visitNode(inout Traversal r) {
 
     bool none = r.groupMask <= 0x00ffffffu;
     r.nodesLeft = !none || r.stackSize > 0;
-    r.stackSize = max(r.stackSize - (none ? 1 : 0), 0);
-    r.groupBase = none ? stackBase[r.stackSize] : r.groupBase;
-    r.groupMask = none ? stackMask[r.stackSize] : r.groupMask;
+    r.stackSize = none ? top : r.stackSize;
+    r.groupBase = none ? topBase : r.groupBase;
+    r.groupMask = none ? topMask : r.groupMask;
 }
 
 void testTriangle(inout Traversal r, Triangle tri, uint index, bool ordered) {
