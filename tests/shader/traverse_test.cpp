@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "tests/shader/hand_made_node.h"
 #include "tests/shader/oracles.h"
 #include "tests/shader/test_meshes.h"
 #include "tests/shader/traced_scene.h"
+#include "tests/support/device.h"
 
 // Trees made by hand, what is not a number, and both oracles.
 
@@ -36,6 +38,30 @@ TEST(Traverse, AnEmptyNodeIsAnEmptyScene) {
         EXPECT_FALSE(hit.found());
         EXPECT_EQ(hit.nodes, 1u);
         EXPECT_EQ(hit.t, kFar);
+    }
+}
+
+/// By ballots, and by shuffles where lanes are 8 as on lavapipe: of each subgroup the lanes that say yes.
+TEST(Traverse, LanesAreCounted) {
+    const std::uint32_t lanes = device().info().subgroupSize;
+    Random random;
+    std::vector<std::uint32_t> votes;
+    for (std::uint32_t i = 0; i < 256 * lanes; ++i)
+        votes.push_back(random.word() % 257 > i / lanes ? 1 : 0);  // from all of a subgroup to none
+    DeviceTree tree;
+    tree.nodes.resize(1);
+    tree.pairs.resize(1);
+    for (std::uint32_t byShuffle = 0; byShuffle <= (lanes == 8 ? 1u : 0u); ++byShuffle) {
+        const std::vector<std::uint32_t> counts =
+            traversalOf(tree)
+                .constant(shared::kSpecVoteByShuffle, byShuffle)
+                .evaluate<std::uint32_t>("result = laneCount(x0 != 0u);", votes);
+        for (std::uint32_t first = 0; first < votes.size(); first += lanes) {
+            const auto begin = votes.begin() + first;
+            const auto yes = static_cast<std::uint32_t>(std::accumulate(begin, begin + lanes, 0u));
+            for (std::uint32_t lane = 0; lane < lanes; ++lane)
+                ASSERT_EQ(counts[first + lane], yes) << first << " " << lane << " " << byShuffle;
+        }
     }
 }
 
