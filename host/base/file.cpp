@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "host/base/error.h"
+#include "host/base/temporary_folder.h"
 
 namespace duolux {
 
@@ -44,15 +45,34 @@ void synchronise(const std::filesystem::path& path) {
     ::close(file);
 }
 
+/// Devices and pipes stay what they are: they get the bytes of a file that was written elsewhere.
+void writeInto(const std::filesystem::path& special,
+               const std::function<void(const std::filesystem::path&)>& write) {
+    const TemporaryFolder folder;
+    const std::filesystem::path temporary = folder / special.filename().string();
+    write(temporary);
+    const std::string bytes = readFile(temporary);
+    std::ofstream out(special, std::ios::binary | std::ios::app);
+    out << bytes;
+    out.close();
+    if (!out) throw MachineError(fmt::format("{}: cannot write: {}", special.string(), std::strerror(errno)));
+}
+
 }  // namespace
 
-void writeFileAtomically(const std::filesystem::path& path,
+void writeFileAtomically(const std::filesystem::path& name,
                          const std::function<void(const std::filesystem::path&)>& write) {
+    std::error_code ec;
+    const std::filesystem::path linked = std::filesystem::canonical(name, ec);
+    const std::filesystem::path& path = ec ? name : linked;  // none there yet: ec
+    if (!ec && !std::filesystem::is_regular_file(path, ec) && !std::filesystem::is_directory(path, ec)) {
+        writeInto(path, write);
+        return;
+    }
     // The extension is kept: some writers choose the format by it.
     std::filesystem::path temporary = path;
     temporary.replace_filename(
         fmt::format(".{}.{}{}", path.stem().string(), ::getpid(), path.extension().string()));
-    std::error_code ec;
     try {
         write(temporary);
         synchronise(temporary);

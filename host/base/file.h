@@ -12,8 +12,9 @@ std::string readFile(const std::filesystem::path& path);
 
 /// Writes a file so that a reader sees the old one or the complete new one, never a part: `write` is given
 /// the path of a temporary in the same folder, which is then renamed over `path`. The temporary is removed if
-/// `write` throws. What was written is on the disk before it takes the old one's place. Throws MachineError
-/// naming `path` if the folder cannot be written to.
+/// `write` throws. A symbolic link stays one: the file that it names is replaced. What is neither a file nor
+/// a link, as a device or a pipe, stays what it is, too, and is written into. What was written is on the disk
+/// before it takes the old one's place. Throws MachineError naming `path` if the folder cannot be written to.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -1,5 +1,8 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -50,6 +53,33 @@ TEST_F(FileTest, WritesUnderATemporaryNameOfTheSameExtension) {
         EXPECT_EQ(readFile(path), "old");
     });
     EXPECT_EQ(readFile(path), "new");
+    EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(FileTest, ALinkStaysOne) {
+    write(folder_ / "old", "old");
+    fs::create_symlink("old", folder_ / "link");
+    writeFile(folder_ / "link", "new");
+    EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+    EXPECT_EQ(readFile(folder_ / "old"), "new");
+    EXPECT_EQ(filesInFolder(), 2u);
+}
+
+TEST_F(FileTest, APipeStaysOneAndIsWrittenInto) {
+    const fs::path pipe = folder_ / "pipe.exr";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    writeFileAtomically(pipe, [&](const fs::path& temporary) {
+        EXPECT_EQ(temporary.extension(), ".exr");
+        write(temporary, "bytes");
+    });
+    char bytes[16];
+    const ssize_t count = ::read(reader, bytes, sizeof bytes);
+    ::close(reader);
+    ASSERT_EQ(count, 5);
+    EXPECT_EQ(std::string(bytes, 5), "bytes");
+    EXPECT_TRUE(fs::is_fifo(pipe));
     EXPECT_EQ(filesInFolder(), 1u);
 }
 
