@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -15,6 +17,7 @@
 namespace {
 
 int report(const char* line, duolux::ExitStatus status) {
+    std::fflush(stdout);  // in order, where both go to one place
     fmt::print(stderr, "duolux: {}\n", line);
     return static_cast<int>(status);
 }
@@ -73,7 +76,13 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return run(argc, argv);
+        const int status = run(argc, argv);
+        errno = 0;
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            throw duolux::MachineError(
+                fmt::format("standard output: cannot write: {}", std::strerror(errno)));
+        }
+        return status;
     } catch (const duolux::Error& e) {
         return report(e.what(), e.status());
     } catch (const std::bad_alloc&) {

@@ -123,6 +123,7 @@ void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std:
 }
 
 void warn(const std::string& text) {
+    std::fflush(stdout);  // in order, where both go to one place
     fmt::print(stderr, "duolux: warning: {}\n", text);
 }
 

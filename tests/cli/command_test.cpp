@@ -35,6 +35,13 @@ TEST_F(Command, VersionIsOneLine) {
     EXPECT_EQ(result.out.find('\n'), result.out.size() - 1);
 }
 
+TEST_F(Command, StandardOutputThatCannotBeWrittenIsAnError) {
+    const ProgramResult result =
+        runProgram("/bin/sh", folder_.path(), {"-c", "exec \"$0\" devices > /dev/full", DUOLUX_EXECUTABLE});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.err, "duolux: standard output: cannot write: No space left on device\n");
+}
+
 TEST_F(Command, DevicesShowsTheSoftwareDriverAndTheChoice) {
     const ProgramResult result = run({"devices"});
     EXPECT_EQ(result.status, 0) << result.err;
