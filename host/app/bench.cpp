@@ -31,29 +31,33 @@ struct BenchOptions {
     bool quiet = false;
 };
 
-/// Which scenes there are is known before the first is measured.
-void checkScenes(const BenchOptions& options) {
-    for (const std::string& scene : options.scenes) {
-        if (isBuiltinScene(scene) || std::filesystem::exists(scene)) continue;
-        throw UsageError(fmt::format(
-            "bench: {} is neither a file nor a built-in scene; expected a scene file or one of {}", scene,
-            fmt::join(builtinSceneNames(), ", ")));
+/// Rates are compared with those of the same work alone.
+void checkSettings(const std::map<std::string, double>& settings, const Baseline& baseline,
+                   const std::string& file) {
+    for (const auto& [name, value] : settings) {
+        const auto then = baseline.settings.find(name);
+        if (name == "repeat" || then == baseline.settings.end() || then->second == value) continue;
+        throw UsageError(fmt::format("--baseline {}: was measured with {} {:g}, not {:g}; expected the same",
+                                     file, name, then->second, value));
     }
-}
-
-/// Names of results: of a file the stem, which may not tell two apart.
-std::string benchName(const std::string& scene) {
-    return isBuiltinScene(scene) ? scene : std::filesystem::path(scene).stem().string();
 }
 
 void bench(const BenchOptions& options) {
     const glm::uvec2 size = parseSize(options.size);
-    checkScenes(options);
+    checkBenchScenes(options.scenes);
     std::vector<std::string> inputs = options.scenes;
     inputs.push_back(options.baseline);
     if (!options.json.empty() && options.json != "-") checkOutputs({{"--json", options.json, false}}, inputs);
     Baseline baseline;
-    if (!options.baseline.empty()) baseline = readBaseline(options.baseline);
+    const std::map<std::string, double> settings{{"width", size.x},
+                                                 {"height", size.y},
+                                                 {"spp", options.spp},
+                                                 {"bounces", options.bounces},
+                                                 {"repeat", options.repeat}};
+    if (!options.baseline.empty()) {
+        baseline = readBaseline(options.baseline);
+        checkSettings(settings, baseline, options.baseline);
+    }
     Device device(options.device);
     const bool table = options.json != "-";
     if (table) fmt::print("{}, {}\n", device.info().name, device.info().driver);
@@ -63,24 +67,22 @@ void bench(const BenchOptions& options) {
     for (const std::string& scene : options.scenes) {
         const std::string name = benchName(scene);
         const std::filesystem::path folder = scratch.path() / std::to_string(results.size());
-        const std::filesystem::path file =
-            isBuiltinScene(scene) ? writeBuiltinScene(scene, folder) : std::filesystem::path(scene);
         std::filesystem::create_directories(folder);
-        SceneSuite suite(
-            device, name, file,
-            {size.x, size.y, options.spp, options.bounces, options.tuning.choice(), "/proc/self/exe"},
-            folder);
+        const SceneSuite suite(device, name, benchSceneFile(scene, folder),
+                               {size.x, size.y, options.spp, options.bounces, options.tuning.choice(),
+                                "/proc/self/exe", options.only},
+                               folder);
         tunings[name] = suite.tuning();
-        const std::vector<Benchmark> chosen = suite.benchmarks(options.only);
         const auto onRun = [&](const std::string& what) {
             if (!options.quiet) fmt::print(stderr, "{}\n", what);
         };
-        const std::vector<BenchResult> measured = runBenchmarks(chosen, options.repeat, onRun);
+        const std::vector<BenchResult> measured = runBenchmarks(suite.benchmarks(), options.repeat, onRun);
         results.insert(results.end(), measured.begin(), measured.end());
     }
     if (results.empty()) {
         throw UsageError(
-            fmt::format("bench: no benchmark's name contains {}", fmt::join(options.only, " or ")));
+            fmt::format("bench: no benchmark's name contains {}; expected a part of SCENE/ and one of {}",
+                        fmt::join(options.only, " or "), kBenchmarkNames));
     }
     if (table) {
         for (const auto& [scene, tuning] : tunings)
@@ -88,19 +90,16 @@ void bench(const BenchOptions& options) {
         fmt::print("{}", benchTable(results));
     }
     if (!options.json.empty()) {
-        writeReport(options.json, benchJson(results, device.info(),
-                                            {{"width", size.x},
-                                             {"height", size.y},
-                                             {"spp", options.spp},
-                                             {"bounces", options.bounces},
-                                             {"repeat", options.repeat}},
-                                            tunings));
+        writeReport(options.json, benchJson(results, device.info(), settings, tunings));
     }
     if (options.baseline.empty()) return;
     const BaselineComparison comparison = compareWithBaseline(results, baseline, options.threshold);
     fmt::print(table ? stdout : stderr, "\n{}", comparison.table);
-    if (baseline.device != device.info().name || baseline.driver != device.info().driver) {
-        warn(fmt::format("{} was measured on {}, {}", options.baseline, baseline.device, baseline.driver));
+    if (baseline.device != device.info().name || baseline.driver != device.info().driver ||
+        baseline.host != hostProcessor()) {
+        warn(fmt::format("{} was measured on {}, {}, {}; this is {}, {}, {}", options.baseline,
+                         baseline.device, baseline.driver, baseline.host, device.info().name,
+                         device.info().driver, hostProcessor()));
     }
     if (comparison.compared == 0)
         throw UsageError(fmt::format("{}: has none of these benchmarks", options.baseline));
@@ -124,7 +123,9 @@ void addBenchCommand(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--only", options->only,
-                     "Only benchmarks whose names contain this text; may be repeated")
+                     fmt::format("Only benchmarks whose names contain this text; may be repeated. Names are "
+                                 "SCENE/ and one of {}",
+                                 kBenchmarkNames))
         ->allow_extra_args(false);
     command->add_option("--device", options->device,
                         "cpu, gpu, an index or a part of a name (see 'duolux devices')");
@@ -146,7 +147,7 @@ void addBenchCommand(CLI::App& app) {
         ->check(notEmpty());
     command
         ->add_option("--baseline", options->baseline,
-                     "Such a file of before: prints ratios; exit status 1 if slower")
+                     "Such a file of before, with the same settings: prints ratios; exit status 1 if slower")
         ->check(notEmpty());
     command
         ->add_option("--threshold", options->threshold,

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/parallel.h"
 #include "host/base/version.h"
 
 namespace duolux {
@@ -15,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 std::string number(double value) {
     if (value == 0.0) return "-";
@@ -48,8 +50,8 @@ std::string benchTable(std::span<const BenchResult> results) {
         if (r.notes.contains("nodes_per_ray")) {
             perRay += fmt::format("{:<{}} {:>8.1f} {:>8.1f} {:>8.0f}   {:.0f} %, {:.0f} %\n", r.name, width,
                                   r.notes.at("nodes_per_ray"), r.notes.at("pairs_per_ray"),
-                                  r.notes.at("bytes_per_ray"), 100.0 * r.notes.at("lanes_in_nodes"),
-                                  100.0 * r.notes.at("lanes_in_pairs"));
+                                  r.notes.at("node_bytes_per_ray") + r.notes.at("pair_bytes_per_ray"),
+                                  100.0 * r.notes.at("lanes_in_nodes"), 100.0 * r.notes.at("lanes_in_pairs"));
             continue;
         }
         for (const auto& [note, value] : r.notes)
@@ -57,7 +59,7 @@ std::string benchTable(std::span<const BenchResult> results) {
     }
     if (!perRay.empty()) {
         table += fmt::format("\n{:<{}} {:>8} {:>8} {:>8}   lanes busy in nodes, pairs\n{}", "per ray", width,
-                             "nodes", "tests", "bytes", perRay);
+                             "nodes", "pairs", "bytes", perRay);
     }
     if (!perItem.empty()) table += "\n" + perItem;
     return table;
@@ -71,13 +73,21 @@ std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& de
     report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};
     report["device"] = {{"name", device.name},
                         {"driver", device.driver},
-                        {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"}};
+                        {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"},
+                        {"host", hostProcessor()}};
     report["settings"] = settings;
     for (const auto& [scene, tuning] : tunings) {
-        report["tuning"][scene] = {
-            {"layout", nameOf(tuning.layout)},        {"kernel", nameOf(tuning.kernel)},
-            {"workgroup_size", tuning.workgroupSize}, {"leave_traversal", tuning.leaveTraversal},
-            {"leave_nodes", tuning.leaveNodes},       {"vote_by_shuffle", tuning.voteByShuffle}};
+        report["tuning"][scene] = {{"layout", nameOf(tuning.layout)},
+                                   {"kernel", nameOf(tuning.kernel)},
+                                   {"lanes", tuning.lanes},
+                                   {"workgroup_size", tuning.workgroupSize},
+                                   {"leave_traversal", tuning.leaveTraversal},
+                                   {"leave_nodes", tuning.leaveNodes},
+                                   {"vote_by_shuffle", tuning.voteByShuffle},
+                                   {"fewest_teams", tuning.fewestTeams},
+                                   {"lane_paths", tuning.lanePaths},
+                                   {"lane_crossing_paths", tuning.laneCrossingPaths},
+                                   {"lane_rays", tuning.laneRays}};
     }
     report["results"] = Json::array();
     for (const BenchResult& r : results) {
@@ -99,6 +109,17 @@ std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& de
     return report.dump(2) + "\n";
 }
 
+std::string hostProcessor() {
+    std::istringstream lines(readFile("/proc/cpuinfo"));
+    std::string line, model = "unknown processor";
+    while (std::getline(lines, line)) {
+        if (!line.starts_with("model name")) continue;
+        model = line.substr(line.find(':') + 2);
+        break;
+    }
+    return fmt::format("{} x {}", workerCount(), model);
+}
+
 Baseline readBaseline(const std::filesystem::path& file) {
     const std::string text = readFile(file);
     const auto fail = [&](std::string_view place, std::string_view what) {
@@ -110,13 +131,20 @@ Baseline readBaseline(const std::filesystem::path& file) {
         if (json.at("version") != kVersion) fail("version", fmt::format("is {}", json.at("version").dump()));
         baseline.device = json.at("device").at("name");
         baseline.driver = json.at("device").at("driver");
+        baseline.host = json.at("device").at("host");
         baseline.commit = json.at("program").at("commit");
-        for (const Json& result : json.at("results"))
-            baseline.medians[result.at("name")] = result.at("wall").at("median");
+        baseline.settings = json.at("settings");
+        for (const Json& result : json.at("results")) {
+            const std::string name = result.at("name");
+            const double median = result.at("wall").at("median");
+            if (!(median > 0.0)) fail(name, fmt::format("has a median of {:g}", median));
+            baseline.medians[name] = median;
+        }
     } catch (const Json::parse_error& e) {
         fail(fmt::format("byte {}", e.byte), "is not JSON");
     } catch (const Json::exception& e) {
-        fail("", e.what());
+        const std::string_view what = e.what();  // [json.exception...] what is wrong
+        fail("", what.substr(what.find("] ") + 2));
     }
     return baseline;
 }
@@ -125,12 +153,17 @@ BaselineComparison compareWithBaseline(std::span<const BenchResult> results, con
                                        double threshold) {
     BaselineComparison out;
     const std::size_t width = widestName(results);
-    out.table =
-        fmt::format("{:<{}} {:>8} {:>8} {:>8}\n", "against the baseline", width, "then", "now", "ratio");
+    out.table = fmt::format(
+        "against the baseline, of commit {}; ratios above 1 are faster\n{:<{}} {:>8} {:>8} {:>8}\n",
+        baseline.commit, "benchmark", width, "then", "now", "ratio");
     for (const BenchResult& r : results) {
         const auto then = baseline.medians.find(r.name);
-        if (then == baseline.medians.end() || !(then->second > 0.0)) continue;
         const double now = r.wall().median;
+        if (then == baseline.medians.end()) {
+            out.table +=
+                fmt::format("{:<{}} {:>8} {:>8}  not in the baseline\n", r.name, width, "-", number(now));
+            continue;
+        }
         const double ratio = r.isTime() ? then->second / now : now / then->second;
         const bool worse = ratio < 1.0 - threshold;
         out.table += fmt::format("{:<{}} {:>8} {:>8} {:>8.3f}{}\n", r.name, width, number(then->second),

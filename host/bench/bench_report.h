@@ -16,7 +16,10 @@ namespace duolux {
 /// and the notes.
 std::string benchTable(std::span<const BenchResult> results);
 
-/// Everything, as JSON with a "version".
+/// How many cores of what processor, as in "2 x AMD EPYC": on it depends what CPU devices do, and the host.
+std::string hostProcessor();
+
+/// Everything, as JSON with a "version". `settings`: what rates depend on, besides the number of runs.
 /// `tunings`: by the names of scenes.
 std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& device,
                       const std::map<std::string, double>& settings,
@@ -24,8 +27,8 @@ std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& de
 
 /// Medians of wall rates by name, of a file that benchJson made.
 struct Baseline {
-    std::string device, driver, commit;
-    std::map<std::string, double> medians;
+    std::string device, driver, host, commit;
+    std::map<std::string, double> settings, medians;
 };
 /// Throws InputError.
 Baseline readBaseline(const std::filesystem::path& file);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 
 namespace duolux {
 
@@ -16,6 +17,18 @@ Spread spreadOfRates(const BenchResult& result, double BenchTimes::*seconds) {
 }
 
 }  // namespace
+
+double secondsOf(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool isChosen(const std::string& name, const std::vector<std::string>& only) {
+    return only.empty() || std::ranges::any_of(only, [&](const std::string& part) {
+               return name.find(part) != std::string::npos;
+           });
+}
 
 Spread spreadOf(std::vector<double> values) {
     assert(!values.empty());

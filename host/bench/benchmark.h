@@ -14,6 +14,12 @@ struct BenchTimes {
     double device = 0.0;  ///< by the device's timestamps; 0: it was not asked, or has none
 };
 
+/// Seconds of wall time.
+double secondsOf(const std::function<void()>& work);
+
+/// Whether a name contains one of `only`, or that is empty.
+bool isChosen(const std::string& name, const std::vector<std::string>& only);
+
 /// Something that can be run again and again.
 struct Benchmark {
     std::string name;  ///< by parts, as in "cornell/rays/primary"

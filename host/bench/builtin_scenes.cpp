@@ -1,9 +1,14 @@
 #include "host/bench/builtin_scenes.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <optional>
+#include <set>
 #include <string_view>
 
+#include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/scene/two_spheres.h"
 
@@ -29,7 +34,9 @@ std::optional<std::size_t> trianglesOf(std::string_view name) {
 }  // namespace
 
 std::vector<std::string> builtinSceneNames() {
-    return {"cornell", "spot", "two-spheres-N"};
+    return {
+        "cornell", "spot",
+        fmt::format("two-spheres-N (N from {} to {})", kFewestTwoSpheresTriangles, kMostTwoSpheresTriangles)};
 }
 
 bool isBuiltinScene(const std::string& name) {
@@ -46,6 +53,29 @@ std::filesystem::path writeBuiltinScene(const std::string& name, const std::file
         if (file.folder == name) writeFile(folder / file.name, file.bytes);
     }
     return folder / (name + ".json");
+}
+
+void checkBenchScenes(const std::vector<std::string>& scenes) {
+    std::set<std::string> names;
+    for (const std::string& scene : scenes) {
+        if (!isBuiltinScene(scene) && !std::filesystem::exists(scene)) {
+            throw UsageError(
+                fmt::format("{} is neither a file nor a built-in scene; expected a scene file or one of {}",
+                            scene, fmt::join(builtinSceneNames(), ", ")));
+        }
+        if (!names.insert(benchName(scene)).second) {
+            throw UsageError(fmt::format("two scenes are called {}; expected names that tell results apart",
+                                         benchName(scene)));
+        }
+    }
+}
+
+std::string benchName(const std::string& scene) {
+    return isBuiltinScene(scene) ? scene : std::filesystem::path(scene).stem().string();
+}
+
+std::filesystem::path benchSceneFile(const std::string& scene, const std::filesystem::path& folder) {
+    return isBuiltinScene(scene) ? writeBuiltinScene(scene, folder) : std::filesystem::path(scene);
 }
 
 }  // namespace duolux

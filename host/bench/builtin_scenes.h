@@ -15,4 +15,13 @@ bool isBuiltinScene(const std::string& name);
 /// Throws MachineError if it cannot be written. Requires isBuiltinScene(name).
 std::filesystem::path writeBuiltinScene(const std::string& name, const std::filesystem::path& folder);
 
+/// Throws UsageError unless each is a built-in scene or a file, and no two have the same benchName.
+void checkBenchScenes(const std::vector<std::string>& scenes);
+
+/// What the names of a scene's benchmarks begin with: its own name, of a file the stem.
+std::string benchName(const std::string& scene);
+
+/// The file of a scene; a built-in one is written to `folder`. Throws as writeBuiltinScene does.
+std::filesystem::path benchSceneFile(const std::string& scene, const std::filesystem::path& folder);
+
 }  // namespace duolux

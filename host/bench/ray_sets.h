@@ -18,6 +18,9 @@ struct RaySet {
     std::vector<shared::TraceRay> rays;
 };
 
+/// Of the sets of a scene in which something emits and something is hit.
+inline constexpr const char* kRaySetNames[] = {"primary", "diffuse", "shadow", "crossings"};
+
 /// The rays that a path tracer of this scene asks for first, of a picture of width x height pixels:
 /// `primary`: from the camera, in the order in which pixels are rendered (coherent);
 /// `diffuse`: from where these hit, by the cosine (incoherent);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 
@@ -22,12 +21,6 @@ namespace duolux {
 
 namespace {
 
-double secondsOf(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 double secondsOfProgram(const std::string& program, const std::vector<std::string>& arguments,
                         const std::vector<std::string>& environment) {
     int status = 0;
@@ -42,6 +35,10 @@ struct NamedReflectance {
 };
 constexpr NamedReflectance kPresets[] = {
     {"global", UINT32_MAX}, {"shadowless", 4}, {"one-bounce", UINT32_MAX}, {"local", UINT32_MAX}};
+
+std::string rayBenchmark(const std::string& set) {
+    return "rays/" + set;
+}
 
 /// How often to do what takes so many seconds, so that what a run costs besides does not count.
 std::uint32_t passesOf(double seconds) {
@@ -72,8 +69,11 @@ struct SceneSuite::State {
           scene(loadScene(path)),
           deviceScene(uploadScene(device, scene, options.tuning)) {}
 
+    bool wanted(const std::string& what) const { return isChosen(name + "/" + what, options.only); }
+
     void add(const std::string& what, std::string unit, double work, std::function<BenchTimes()> run,
              std::map<std::string, double> notes = {}) {
+        if (!wanted(what)) return;
         benchmarks.push_back({name + "/" + what, std::move(unit), work, std::move(run), std::move(notes)});
     }
 
@@ -87,33 +87,45 @@ struct SceneSuite::State {
     void addStart();
 };
 
-/// What the traversal does for the rays of a set.
+/// What the traversal does for the rays of a set: sums of 32 bits are those of a part of them.
 std::map<std::string, double> SceneSuite::State::countTraversal(const RaySet& set) const {
     if (deviceScene.tuning.layout == Layout::kRayQuery) return {};
-    TraceKernel counting(device, deviceScene, set.mode, set.rays, true);
-    counting.run();
-    const shared::TraceCounts counts = counting.counts();
+    constexpr std::size_t kPart = std::size_t{1} << 20;
+    double nodes = 0.0, pairs = 0.0, nodeSteps = 0.0, pairSteps = 0.0;
+    for (std::size_t first = 0; first < set.rays.size(); first += kPart) {
+        const std::span<const shared::TraceRay> rays(set.rays);
+        TraceKernel counting(device, deviceScene, set.mode,
+                             rays.subspan(first, std::min(kPart, rays.size() - first)), true);
+        counting.run();
+        const shared::TraceCounts counts = counting.counts();
+        nodes += counts.nodes;
+        pairs += counts.pairs;
+        nodeSteps += counts.nodeSteps;
+        pairSteps += counts.pairSteps;
+    }
     const auto rays = static_cast<double>(set.rays.size());
     const double lanes = deviceScene.tuning.lanes;
-    const double bytes =
-        counts.nodes * 16.0 * shared::kNodeTexels + counts.pairs * 16.0 * shared::kPairTexels;
-    return {{"nodes_per_ray", counts.nodes / rays},
-            {"pairs_per_ray", counts.pairs / rays},
-            {"bytes_per_ray", bytes / rays},
-            {"lanes_in_nodes", counts.nodes / (lanes * std::max(counts.nodeSteps, 1u))},
-            {"lanes_in_pairs", counts.pairs / (lanes * std::max(counts.pairSteps, 1u))}};
+    return {{"nodes_per_ray", nodes / rays},
+            {"pairs_per_ray", pairs / rays},
+            {"node_bytes_per_ray", nodes * 16.0 * shared::kNodeTexels / rays},
+            {"pair_bytes_per_ray", pairs * 16.0 * shared::kPairTexels / rays},
+            {"lanes_in_nodes", nodes / (lanes * std::max(nodeSteps, 1.0))},
+            {"lanes_in_pairs", pairs / (lanes * std::max(pairSteps, 1.0))}};
 }
 
 void SceneSuite::State::addRays() {
+    if (std::ranges::none_of(kRaySetNames, [&](const char* set) { return wanted(rayBenchmark(set)); }))
+        return;
     raySets = makeRaySets(device, scene, deviceScene, options.width, options.height);
     for (const RaySet& set : raySets) {
+        if (!wanted(rayBenchmark(set.name))) continue;
         kernels.push_back(std::make_unique<TraceKernel>(device, deviceScene, set.mode, set.rays));
         TraceKernel& kernel = *kernels.back();
         kernel.run();
         kernel.hits();  // throws if the driver has cut it short
         const std::uint32_t passes = passesOf(kernel.run().wall);
         add(
-            "rays/" + set.name, "Mrays/s", static_cast<double>(set.rays.size()) * passes * 1e-6,
+            rayBenchmark(set.name), "Mrays/s", static_cast<double>(set.rays.size()) * passes * 1e-6,
             [&kernel, passes] { return kernel.run(passes); }, countTraversal(set));
     }
 }
@@ -121,19 +133,18 @@ void SceneSuite::State::addRays() {
 void SceneSuite::State::addRenders() {
     for (const NamedReflectance& preset : kPresets) {
         for (const Integrator integrator : {Integrator::kPath, Integrator::kLight}) {
-            Scene changed = scene;
-            changed.reflectance = *presetReflectance(preset.name);
-            changed.render.width = options.width;
-            changed.render.height = options.height;
-            changed.render.spp = options.spp;
-            changed.render.bounces = std::min(options.bounces, preset.bounces);
-            changed.render.integrator = integrator;
             const double samples = static_cast<double>(options.width) * options.height * options.spp;
             add(fmt::format("render/{}/{}", preset.name, nameOf(integrator)), "Msamples/s", samples * 1e-6,
-                [this, changed = std::move(changed)] {
+                [this, &preset, integrator] {
+                    scene.reflectance = *presetReflectance(preset.name);
+                    scene.render.width = options.width;
+                    scene.render.height = options.height;
+                    scene.render.spp = options.spp;
+                    scene.render.bounces = std::min(options.bounces, preset.bounces);
+                    scene.render.integrator = integrator;
                     RenderControl control;
                     control.tuning = options.tuning;
-                    const RenderStatistics statistics = render(device, changed, control).statistics;
+                    const RenderStatistics statistics = render(device, scene, control).statistics;
                     return BenchTimes{statistics.renderSeconds, statistics.deviceSeconds};
                 });
         }
@@ -157,25 +168,29 @@ void SceneSuite::State::addFilm(const std::string& integrator, std::size_t pixel
 
 /// From the results of a dispatch, which is done, to the film of the render.
 void SceneSuite::State::addFilms() {
-    Scene changed = scene;
-    changed.render.width = options.width;
-    changed.render.height = options.height;
-    changed.render.bounces = 1;
+    scene.render.width = options.width;
+    scene.render.height = options.height;
+    scene.render.bounces = 1;
     const auto film = std::make_shared<Film>(options.width, options.height, deviceScene.quantum);
 
     const auto pixels =
         std::make_shared<std::vector<std::uint32_t>>(pixelOrder(options.width, options.height));
-    const auto slots =
-        static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxSlots));
-    const auto gathering = std::make_shared<PathKernel>(device, deviceScene, changed, *pixels, slots, false);
-    gathering->submit(0, {0, slots, 0, 1});
-    gathering->wait(0);
-    addFilm("path", slots, sizeof(shared::SlotResult),
-            [pixels, gathering, film] { gathering->addTo(*film, 0); });
-
-    const auto shooting =
-        std::make_shared<LightKernel>(device, deviceScene, changed, 1, LightKernel::Limits{});
-    addFilm("light", pixels->size(), sizeof(Film::PixelSum), [shooting, film] { shooting->takeFilm(*film); });
+    if (wanted("film/path")) {
+        const auto slots =
+            static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxSlots));
+        const auto gathering =
+            std::make_shared<PathKernel>(device, deviceScene, scene, *pixels, slots, false);
+        gathering->submit(0, {0, slots, 0, 1});
+        gathering->wait(0);
+        addFilm("path", slots, sizeof(shared::SlotResult),
+                [pixels, gathering, film] { gathering->addTo(*film, 0); });
+    }
+    if (wanted("film/light")) {
+        const auto shooting =
+            std::make_shared<LightKernel>(device, deviceScene, scene, 1, LightKernel::Limits{});
+        addFilm("light", pixels->size(), sizeof(Film::PixelSum),
+                [shooting, film] { shooting->takeFilm(*film); });
+    }
 }
 
 void SceneSuite::State::addHost() {
@@ -245,17 +260,8 @@ const Tuning& SceneSuite::tuning() const {
     return state_->deviceScene.tuning;
 }
 
-std::size_t SceneSuite::triangles() const {
-    return state_->scene.geometry.triangles.size();
-}
-
-std::vector<Benchmark> SceneSuite::benchmarks(const std::vector<std::string>& only) {
-    std::vector<Benchmark> chosen;
-    for (const Benchmark& b : state_->benchmarks) {
-        const auto matches = [&](const std::string& part) { return b.name.find(part) != std::string::npos; };
-        if (only.empty() || std::any_of(only.begin(), only.end(), matches)) chosen.push_back(b);
-    }
-    return chosen;
+const std::vector<Benchmark>& SceneSuite::benchmarks() const {
+    return state_->benchmarks;
 }
 
 }  // namespace duolux

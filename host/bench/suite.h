@@ -12,12 +12,18 @@
 
 namespace duolux {
 
+/// What the names of a scene's benchmarks end with.
+inline constexpr const char* kBenchmarkNames =
+    "rays/{primary,diffuse,shadow,crossings}, render/PRESET/{path,light}, film/{path,light}, load, build, "
+    "upload, start/{warm,cold}";
+
 struct SuiteOptions {
     std::uint32_t width = 512, height = 512;  ///< of pictures, and of ray sets
     std::uint32_t spp = 16;                   ///< of pictures
     std::uint32_t bounces = 16;
     TuningChoice tuning;
-    std::string program;  ///< path of duolux itself, for start-up; empty: leave that out
+    std::string program;            ///< path of duolux itself, for start-up; empty: leave that out
+    std::vector<std::string> only;  ///< only benchmarks whose name contains one of these; empty: all
 };
 
 /// Everything that is measured on one scene. Throws InputError if it cannot be loaded.
@@ -30,10 +36,9 @@ class SceneSuite {
     SceneSuite(const SceneSuite&) = delete;
     SceneSuite& operator=(const SceneSuite&) = delete;
 
-    /// Those whose name contains one of `only`, or all if that is empty. Valid as long as the suite is.
-    std::vector<Benchmark> benchmarks(const std::vector<std::string>& only);
+    /// Valid as long as the suite is. They change its scene: one at a time may run.
+    const std::vector<Benchmark>& benchmarks() const;
 
-    std::size_t triangles() const;
     const Tuning& tuning() const;
 
   private:

@@ -22,10 +22,12 @@ class TraceKernel {
     TraceKernel(const Device& device, const DeviceScene& scene, std::uint32_t mode,
                 std::span<const shared::TraceRay> rays, bool count = false);
 
-    /// All rays, `passes` times in one submission. Throws MachineError if the driver has cut loops short.
+    /// All rays, `passes` times in one submission.
     BenchTimes run(std::uint32_t passes = 1);
 
+    /// One a ray, of the last run. Throws MachineError if the driver has cut loops short.
     std::vector<shared::TraceHit> hits() const;
+    /// Of a kernel that counts: of the last run.
     shared::TraceCounts counts() const;
 
   private:

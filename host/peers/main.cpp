@@ -1,12 +1,13 @@
 // duolux-peers: the same rays and the same path tracer through Embree, in turns with Duolux on the same
 // cores.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,12 +37,10 @@ struct PeerOptions {
 };
 
 BenchTimes timed(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 0.0};
+    return {secondsOf(work), 0.0};
 }
 
-/// One scene, by both.
+/// One scene, by both: of each benchmark Duolux first, then Embree.
 class Pair {
   public:
     Pair(Device& device, const std::string& name, const std::filesystem::path& file,
@@ -77,6 +76,7 @@ class Pair {
   private:
     void add(const std::string& name, const std::string& unit, double work, std::function<BenchTimes()> ours,
              std::function<BenchTimes()> theirs) {
+        if (!isChosen(name, options_.only)) return;
         benchmarks_.push_back({name + "/duolux", unit, work, std::move(ours), {}});
         benchmarks_.push_back({name + "/embree", unit, work, std::move(theirs), {}});
     }
@@ -142,35 +142,31 @@ void printRatios(const std::vector<BenchResult>& results) {
 }
 
 void run(const PeerOptions& options) {
+    checkBenchScenes(options.scenes);
+    if (!options.json.empty()) checkOutputs({{"--json", options.json, false}}, options.scenes);
     Device device(options.device);
     fmt::print("{}, {}\n", device.info().name, device.info().driver);
     const TemporaryFolder scratch;
     std::vector<BenchResult> results;
     std::map<std::string, Tuning> tunings;
     for (const std::string& scene : options.scenes) {
-        const bool builtin = isBuiltinScene(scene);
-        const std::filesystem::path file =
-            builtin ? writeBuiltinScene(scene, scratch.path() / scene) : std::filesystem::path(scene);
-        const Pair pair(device, builtin ? scene : file.stem().string(), file, options);
+        const std::string name = benchName(scene);
+        const Pair pair(device, name, benchSceneFile(scene, scratch.path() / name), options);
         pair.compareImages();
-        tunings[scene] = pair.tuning();
-        std::vector<Benchmark> chosen;
-        for (const Benchmark& b : pair.benchmarks()) {
-            const auto matches = [&](const std::string& part) {
-                return b.name.find(part) != std::string::npos;
-            };
-            if (options.only.empty() || std::any_of(options.only.begin(), options.only.end(), matches))
-                chosen.push_back(b);
-        }
+        tunings[name] = pair.tuning();
         const std::vector<BenchResult> measured =
-            runBenchmarks(chosen, options.repeat, [](const std::string&) {});
+            runBenchmarks(pair.benchmarks(), options.repeat, [](const std::string&) {});
         results.insert(results.end(), measured.begin(), measured.end());
+    }
+    if (results.empty()) {
+        throw UsageError(fmt::format("no benchmark's name contains {}", fmt::join(options.only, " or ")));
     }
     fmt::print("{}", benchTable(results));
     printRatios(results);
     if (!options.json.empty()) {
         writeReport(options.json, benchJson(results, device.info(),
-                                            {{"size", options.size},
+                                            {{"width", options.size},
+                                             {"height", options.size},
                                              {"spp", options.spp},
                                              {"bounces", options.bounces},
                                              {"repeat", options.repeat}},
@@ -203,12 +199,20 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(wholeNumber(0, 65535));
     app.add_option("--json", options.json, "File for all results");
-    CLI11_PARSE(app, argc, argv);
     try {
+        app.parse(argc, argv);
         run(options);
         return 0;
+    } catch (const CLI::Success& e) {
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        fmt::print(stderr, "duolux-peers: {}\n", describeParseError(app, e));
+        return static_cast<int>(ExitStatus::kUsage);
     } catch (const Error& e) {
         fmt::print(stderr, "duolux-peers: {}\n", e.what());
         return static_cast<int>(e.status());
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "duolux-peers: {}\n", e.what());
+        return static_cast<int>(ExitStatus::kMachineFailed);
     }
 }

@@ -33,25 +33,28 @@ Traversal startRay(uint index) {
 }
 
 #ifndef DUOLUX_RAY_QUERY
-// As traverse(), and counts what lanes do and how many steps the subgroup takes for it.
+// traverse() step by step, to count what lanes do and how many steps the subgroup takes for it: its loops must stay those
+// of traverse().
 void traverseCounting(inout Traversal r, inout TraceCounts sums) {
     while (traversalAlive(r)) {
         while (r.pairMask == 0u && r.nodesLeft) {
             sums.nodeSteps += subgroupElect() ? 1u : 0u;
             sums.nodes += 1u;
             visitNode(r);
-            if (subgroupBallotBitCount(subgroupBallot(r.pairMask == 0u && r.nodesLeft)) < kLeaveNodes) break;
+            if (laneCount(r.pairMask == 0u && r.nodesLeft) < kLeaveNodes) break;
         }
-        while (r.pairMask != 0u) {
-            sums.pairSteps += subgroupElect() ? 1u : 0u;
-            sums.pairs += 1u;
-            testPair(r, kOrdered);
+        if (r.pairMask != 0u) {
+            do {
+                sums.pairSteps += subgroupElect() ? 1u : 0u;
+                sums.pairs += 1u;
+                testPair(r, kOrdered);
+            } while (r.pairMask != 0u);
         }
         if (r.anyHit && r.triangle != kNoTriangle) {
             r.nodesLeft = false;
             r.pairMask = 0u;
         }
-        if (subgroupBallotBitCount(subgroupBallot(traversalAlive(r))) < kLeaveTraversal) break;
+        if (laneCount(traversalAlive(r)) < kLeaveTraversal) break;
     }
 }
 #endif

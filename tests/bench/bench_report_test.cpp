@@ -58,12 +58,14 @@ TEST(Baseline, SurvivesItsFileAndKnowsWhatIsBetter) {
     device.driver = "a driver";
     writeFile(folder / "old.json", benchJson(sample(10.0, 2.0), device, {{"spp", 16.0}}, {}));
     const nlohmann::json json = nlohmann::json::parse(readFile(folder / "old.json"));
-    EXPECT_EQ(json["version"], 1);
+    EXPECT_EQ(json["version"], 2);
     EXPECT_EQ(json["settings"]["spp"], 16.0);
     EXPECT_EQ(json["results"][0]["wall_seconds"][0], 1.0);
     const Baseline baseline = readBaseline(folder / "old.json");
     EXPECT_EQ(baseline.device, "a device");
     EXPECT_EQ(baseline.driver, "a driver");
+    EXPECT_EQ(baseline.host, hostProcessor());
+    EXPECT_EQ(baseline.settings, (std::map<std::string, double>{{"spp", 16.0}}));
     EXPECT_THAT(compareWithBaseline(sample(9.1, 2.1), baseline, 0.1).regressions, ElementsAre());
     EXPECT_THAT(compareWithBaseline(sample(8.9, 2.1), baseline, 0.1).regressions,
                 ElementsAre("cornell/rays/primary"));
@@ -72,6 +74,11 @@ TEST(Baseline, SurvivesItsFileAndKnowsWhatIsBetter) {
     EXPECT_THAT(compareWithBaseline(sample(5.0, 2.0), baseline, 0.1).table,
                 HasSubstr("cornell/rays/primary     10.0     5.00    0.500  slower"));
     EXPECT_EQ(compareWithBaseline({}, baseline, 0.1).compared, 0u);
+    std::vector<BenchResult> others = sample(10.0, 2.0);
+    others[0].name = "spot/load";
+    const BaselineComparison partial = compareWithBaseline(others, baseline, 0.1);
+    EXPECT_EQ(partial.compared, 1u);
+    EXPECT_THAT(partial.table, HasSubstr("not in the baseline"));
 }
 
 TEST(Baseline, WhatIsNoneIsRefused) {
@@ -86,8 +93,8 @@ TEST(Baseline, WhatIsNoneIsRefused) {
         return "accepted";
     };
     EXPECT_THAT(message("{"), HasSubstr("x.json: byte 2: is not JSON; expected a file that"));
-    EXPECT_THAT(message(R"({"version": 2})"), HasSubstr("x.json: version: is 2; expected"));
-    EXPECT_THAT(message(R"({"version": 1})"), HasSubstr("device"));
+    EXPECT_THAT(message(R"({"version": 1})"), HasSubstr("x.json: version: is 1; expected"));
+    EXPECT_THAT(message(R"({"version": 2})"), HasSubstr("x.json: key 'device' not found; expected a file"));
 }
 
 }  // namespace

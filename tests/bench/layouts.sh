@@ -1,14 +1,22 @@
 #!/usr/bin/env bash
 # layouts.sh [OPTION...]: what a device makes of every layout and kernel (duolux bench --help), as a table in Markdown. The
-# options are those of `duolux bench`, for example --device gpu. Millions of rays and samples a second of wall time, medians
-# over ROUNDS (5) rounds, in each of which all take turns, because machines vary. What a device does not have is left out,
-# and why is told on standard error. Nothing is built: DUOLUX (build/duolux) is measured, on SCENES.
+# options are those of `duolux bench` but --repeat, --only, --layout, --kernel, --json and --quiet, for example --device gpu.
+# Millions of rays and samples a second of wall time, medians over ROUNDS (5) rounds, in each of which all take turns, because
+# machines vary; then what diffuse rays read, and how busy lanes are with nodes and pairs of triangles for them. What a device
+# does not have is left out, and why is told on standard error. Nothing is built: DUOLUX (build/duolux) is measured, on SCENES.
 set -euo pipefail
-cd "$(dirname "$(readlink -f "$0")")/../.."
+readonly kHere=$(dirname "$(readlink -f "$0")")
 
-readonly kDuolux=$(readlink -f "${DUOLUX:-build/duolux}")
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"
+  exit
+fi
+
+readonly kDuolux=$(readlink -f "${DUOLUX:-$kHere/../../build/duolux}")
 readonly kRounds=${ROUNDS:-5}
 read -r -a scenes <<<"${SCENES:-cornell two-spheres-500000}"
+[[ -x $kDuolux ]] || { echo "layouts.sh: $kDuolux is not there: build it by ./quickstart, or set DUOLUX" >&2; exit 2; }
+[[ $kRounds =~ ^[1-9][0-9]*$ ]] || { echo "layouts.sh: ROUNDS is $kRounds; expected a whole number from 1" >&2; exit 2; }
 readonly kColumns=(rays/primary rays/diffuse rays/shadow rays/crossings render/global/path render/local/path)
 
 folder=$(mktemp -d)
@@ -26,7 +34,10 @@ measure() {
   awk '{ value = $2; gsub(/[",]/, "", value) }
     /"name":/ { name = value }
     /"wall":/ { wall = 1 }
-    /"median":/ && wall { print name, value; wall = 0 }' "$folder/run.json" >>"$folder/$layout-$kernel"
+    /"median":/ && wall { print name, value; wall = 0 }
+    /_bytes_per_ray":/ { bytes[name] += value }
+    /"lanes_in_/ { key = $1; gsub(/[":]/, "", key); print name "#" key, 100 * value }
+    END { for (name in bytes) print name "#bytes", bytes[name] }' "$folder/run.json" >>"$folder/$layout-$kernel"
 }
 
 # text KEY N: the N-th value of a key in the newest run's JSON.
@@ -45,8 +56,11 @@ for ((round = 0; round < kRounds; round++)); do
     read -r layout kernel <<<"$combination"
     if measure "$layout" "$kernel" "$@"; then
       there+=("$combination")
-    else
+    elif grep -qE '^duolux: --(layout|kernel)' "$folder/error"; then
       echo "layouts.sh: left out $layout, $kernel: $(cat "$folder/error")" >&2
+    else
+      cat "$folder/error" >&2
+      exit 1
     fi
   done
   combinations=("${there[@]}")
@@ -55,13 +69,19 @@ done
 
 echo "$(text name 2), $(text driver 1); duolux $(text commit 1)"
 echo
-echo "| scene | layout | kernel | primary | diffuse | shadow | crossings | \`global\` | \`local\` |"
-echo "|---|---|---|---|---|---|---|---|---|"
+echo "| scene | layout | kernel | primary | diffuse | shadow | crossings | \`global\` | \`local\` | diffuse, GB/s | lanes busy, % |"
+echo "|---|---|---|---|---|---|---|---|---|---|---|"
 for scene in "${scenes[@]}"; do
+  name=$scene
+  if [[ -e $scene ]]; then name=$(basename "${scene%.*}"); fi
   for combination in "${combinations[@]}"; do
     read -r layout kernel <<<"$combination"
-    row="| $scene | $layout | $kernel |"
-    for column in "${kColumns[@]}"; do row+=" $(median "$folder/$layout-$kernel" "$scene/$column") |"; done
-    echo "$row"
+    rates="$folder/$layout-$kernel"
+    row="| $name | $layout | $kernel |"
+    for column in "${kColumns[@]}"; do row+=" $(median "$rates" "$name/$column") |"; done
+    diffuse=$name/rays/diffuse
+    row+=" $(awk -v rate="$(median "$rates" "$diffuse")" -v bytes="$(median "$rates" "$diffuse#bytes")" \
+      'BEGIN { if (bytes == "-") print "-"; else printf "%.1f", rate * bytes / 1000 }') |"
+    echo "$row $(median "$rates" "$diffuse#lanes_in_nodes"), $(median "$rates" "$diffuse#lanes_in_pairs") |"
   done
 done

@@ -49,9 +49,9 @@ TEST_F(BenchCommand, MeasuresEverythingOnASmallScene) {
         return json["results"][static_cast<std::size_t>(at - names.begin())];
     };
     EXPECT_GT(of("cornell/rays/primary")["notes"]["nodes_per_ray"].get<double>(), 1.0);
-    // 48 bytes of a triangle at least, and the root.
+    // Half a pair for each triangle at least, and the root.
     const double bytes = of("cornell/upload")["notes"]["bytes_per_triangle"];
-    EXPECT_GT(bytes, 48.0);
+    EXPECT_GT(bytes, 32.0 + 80.0 / 38.0);
     EXPECT_NEAR(bytes * 38.0 * 1e-6, of("cornell/upload")["work"], 1e-9);
     EXPECT_EQ(of("cornell/load")["unit"], "MB/s");
     EXPECT_NEAR(of("cornell/load")["work"].get<double>() * 1e6,
@@ -100,6 +100,11 @@ TEST_F(BenchCommand, ComparesWithABaseline) {
     };
     const ProgramResult faster = compare(1e-3);
     EXPECT_EQ(faster.status, 0) << faster.err;
+    std::vector<std::string> others = arguments;
+    others.insert(others.end(), {"--spp", "3", "--baseline", "b.json"});
+    const ProgramResult refused = bench(others);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--baseline b.json: was measured with spp 16, not 3"));
     const ProgramResult slower = compare(1e3);
     EXPECT_EQ(slower.status, 1);
     EXPECT_THAT(slower.err,
@@ -121,6 +126,11 @@ TEST_F(BenchCommand, RefusesWhatItCannotMeasure) {
     result = bench({"cornell", "--only", "nothing", "--quiet", "--size", "16x16"});
     EXPECT_EQ(result.status, 2);
     EXPECT_THAT(result.err, HasSubstr("no benchmark's name contains nothing"));
+    EXPECT_THAT(result.err, HasSubstr("rays/{primary"));
+    result = bench({"cornell", DUOLUX_ASSETS "/cornell/cornell.json"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("two scenes are called cornell"));
+    EXPECT_THAT(bench({"two-spheres-1"}).err, HasSubstr("N from 100 to 50000000"));
     writeFile(folder_ / "bad.json", "{}");
     result = bench({"cornell", "--baseline", "bad.json"});
     EXPECT_EQ(result.status, 3);

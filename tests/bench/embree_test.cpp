@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/temporary_folder.h"
+#include "host/bench/builtin_scenes.h"
+#include "host/bench/ray_sets.h"
+#include "host/bench/trace_kernel.h"
+#include "host/peers/embree_path_tracer.h"
+#include "host/peers/embree_scene.h"
+#include "host/scene/load.h"
+#include "tests/reference/tracer.h"
+#include "tests/support/agreement.h"
+#include "tests/support/cornell.h"
+#include "tests/support/device.h"
+
+// What duolux-peers compares with does the same work.
+
+namespace duolux::test {
+namespace {
+
+/// The reference judges ours, too: tests/statistical/cornell_test.cpp.
+TEST(Embree, PathTracerMatchesTheReference) {
+    Scene scene = cornellBox();
+    scene.reflectance = *presetReflectance("global");
+    scene.render.bounces = 8;
+    scene.render.spp = 128;
+    reference::Settings settings;
+    settings.width = scene.render.width;
+    settings.height = scene.render.height;
+    settings.bounces = scene.render.bounces;
+    settings.samples = 2048;
+    reference::Estimates expected = reference::trace(scene, settings);
+    for (reference::Estimate& pixel : expected.pixels) {
+        // The invisible component, which Embree's path tracer leaves out.
+        std::ranges::fill(pixel.mean[0], 0.0);
+        std::ranges::fill(pixel.variance[0], 0.0);
+    }
+    const EmbreeScene embree(scene.geometry);
+    const LightTable lights = buildLightTable(scene, false);
+    std::vector<RadianceImage> renders;
+    for (scene.render.seed = 1; scene.render.seed <= 16; ++scene.render.seed)
+        renders.push_back(renderByEmbree(embree, scene, lights));
+    const Agreement agreement = judge(renders, expected);
+    EXPECT_TRUE(agreement.agrees) << agreement.report;
+}
+
+TEST(Embree, RaysMeetWhatOursMeet) {
+    for (const char* name : {"cornell", "two-spheres-1000"}) {
+        const TemporaryFolder folder;
+        const Scene scene = loadScene(writeBuiltinScene(name, folder.path()));
+        const DeviceScene deviceScene = uploadScene(device(), scene);
+        const EmbreeScene embree(scene.geometry);
+        for (const RaySet& set : makeRaySets(device(), scene, deviceScene, 128, 96)) {
+            if (set.mode == shared::kTraceAllCrossings) continue;
+            TraceKernel kernel(device(), deviceScene, set.mode, set.rays);
+            kernel.run();
+            const std::vector<shared::TraceHit> ours = kernel.hits();
+            std::vector<float> theirs;
+            embree.trace(set.rays, set.mode, theirs);
+            ASSERT_EQ(theirs.size(), ours.size());
+            std::size_t differences = 0;
+            for (std::size_t i = 0; i < ours.size(); ++i) {
+                const bool hit = ours[i].t >= 0.0f;
+                const bool far = set.mode == shared::kTraceNearest && hit &&
+                                 std::abs(ours[i].t - theirs[i]) > 1e-4f * (1.0f + ours[i].t);
+                differences += hit != (theirs[i] >= 0.0f) || far ? 1 : 0;
+            }
+            // Rays within rounding of an edge, and those that start in a corner.
+            EXPECT_LE(static_cast<double>(differences), 2e-3 * static_cast<double>(ours.size()))
+                << name << " " << set.name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace duolux::test
