@@ -24,15 +24,15 @@ Layout chooseLayout(const DeviceInfo& device, const TuningChoice& choice) {
                                      device.name, device.driver, nameOf(Layout::kTexel),
                                      nameOf(Layout::kStorage)));
     }
-    // Lavapipe reads texel buffers twice as fast as storage buffers; on GPUs it is storage buffers that are
-    // read 16 bytes at a time (Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs Through Compressed
-    // Wide BVHs", HPG 2017).
+    // On lavapipe 1.6 to 2.3 times as fast as storage buffers (tests/bench/PERFORMANCE.md); on GPUs it is
+    // these that are read 16 bytes at a time (Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs
+    // Through Compressed Wide BVHs", HPG 2017).
     return choice.layout.value_or(device.kind == DeviceKind::kCpu ? Layout::kTexel : Layout::kStorage);
 }
 
 KernelKind chooseKernel(Layout layout, const TuningChoice& choice) {
     if (layout != Layout::kRayQuery) {
-        // On lavapipe 1.3 to 1.8 times as fast; on GPUs incoherent rays gain, too (Aila, Laine, Karras,
+        // On lavapipe 1.2 to 1.8 times as fast; on GPUs incoherent rays gain, too (Aila, Laine, Karras,
         // "Understanding the Efficiency of Ray Traversal on GPUs - Kepler and Fermi Addendum", 2012).
         return choice.kernel.value_or(KernelKind::kRefilling);
     }
