@@ -127,31 +127,40 @@ void addBenchCommand(CLI::App& app) {
                                  "SCENE/ and one of {}",
                                  kBenchmarkNames))
         ->allow_extra_args(false);
-    command->add_option("--device", options->device,
-                        "cpu, gpu, an index or a part of a name (see 'duolux devices')");
+    command
+        ->add_option("--device", options->device,
+                     "cpu, gpu, an index or a part of a name (see 'duolux devices')")
+        ->type_name("DEVICE");
     addTuningOptions(*command, options->tuning);
     command->add_option("--repeat", options->repeat, "Runs that count, in turns, after one that does not")
+        ->type_name("N")
         ->capture_default_str()
         ->check(wholeNumber(1, 1000));
     command->add_option("--size", options->size, "Pixels of pictures, and rays of a set")
+        ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
     command->add_option("--spp", options->spp, "Samples per pixel of pictures")
+        ->type_name("N")
         ->capture_default_str()
         ->check(wholeNumber(1, 65536));
     command->add_option("--bounces", options->bounces, "Bounces of pictures; shadowless: at most 4")
+        ->type_name("N")
         ->capture_default_str()
         ->check(wholeNumber(0, 65535));
     command
         ->add_option("--json", options->json,
                      "File for all results (-: standard output, in place of the table)")
+        ->type_name("FILE")
         ->check(notEmpty());
     command
         ->add_option("--baseline", options->baseline,
                      "Such a file of before, with the same settings: prints ratios; exit status 1 if slower")
+        ->type_name("FILE")
         ->check(notEmpty());
     command
         ->add_option("--threshold", options->threshold,
                      "Part by which a median may be slower than the baseline's")
+        ->type_name("PART")
         ->capture_default_str()
         ->check(between(0, 1));
     command->add_flag("--quiet", options->quiet, "Do not name on standard error what is running");

@@ -110,8 +110,9 @@ void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std:
             fail("unknown image format; expected .exr, .png or .pfm");
         const fs::path path(output.file);
         const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-        if (!fs::is_directory(folder)) fail(fmt::format("there is no folder {}", folder.string()));
-        if (fs::is_directory(path)) fail("is a folder; expected a file name");
+        std::error_code unseen;  // what may not even be looked at is in a folder that may not be written to
+        if (!fs::is_directory(folder, unseen)) fail(fmt::format("there is no folder {}", folder.string()));
+        if (fs::is_directory(path, unseen)) fail("is a folder; expected a file name");
         if (::access(folder.c_str(), W_OK | X_OK) != 0)
             fail(fmt::format("nothing may be written to the folder {}", folder.string()));
         const fs::path resolved = canonical(output.file);
