@@ -14,7 +14,7 @@ namespace {
 void printDevice(const DeviceInfo& device, bool chosen) {
     constexpr double kMebibyte = 1 << 20;
     fmt::print("{} {}: {}\n", chosen ? "*" : " ", device.index, device.name);
-    fmt::print("     kind                   {}\n", device.kind == DeviceKind::kCpu ? "cpu" : "gpu");
+    fmt::print("     kind                   {}\n", nameOf(device.kind));
     fmt::print("     driver                 {}\n", device.driver);
     fmt::print("     Vulkan                 {}.{}.{}\n", VK_API_VERSION_MAJOR(device.apiVersion),
                VK_API_VERSION_MINOR(device.apiVersion), VK_API_VERSION_PATCH(device.apiVersion));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/version.h"
+#include "host/gpu/json.h"
 
 namespace duolux {
 
@@ -47,13 +48,9 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                           {"integrator", nameOf(scene.render.integrator)},
                           {"direct_light", directLight},
                           {"reflectance", describeReflectance(scene.reflectance)}};
-    report["device"] = {{"name", device.name},
-                        {"driver", device.driver},
-                        {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"}};
-    report["tuning"] = {{"layout", nameOf(statistics.tuning.layout)},
-                        {"kernel", nameOf(statistics.tuning.kernel)},
-                        {"workgroup_size", statistics.tuning.workgroupSize},
-                        {"lane_paths", statistics.lanePaths}};
+    report["device"] = toJson(device);
+    report["tuning"] = toJson(statistics.tuning);
+    report["tuning"]["lane_paths"] = statistics.lanePaths;  // as the schedule settled on
     report["seconds"] = {{"load", seconds.load},
                          {"build", statistics.buildSeconds},
                          {"upload", statistics.uploadSeconds},

@@ -10,6 +10,7 @@
 #include "host/base/file.h"
 #include "host/base/parallel.h"
 #include "host/base/version.h"
+#include "host/gpu/json.h"
 
 namespace duolux {
 
@@ -71,24 +72,11 @@ std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& de
     Json report;
     report["version"] = kVersion;
     report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};
-    report["device"] = {{"name", device.name},
-                        {"driver", device.driver},
-                        {"kind", device.kind == DeviceKind::kCpu ? "cpu" : "gpu"},
-                        {"host", hostProcessor()}};
+    report["device"] = toJson(device);
+    report["device"]["host"] = hostProcessor();
     report["settings"] = settings;
-    for (const auto& [scene, tuning] : tunings) {
-        report["tuning"][scene] = {{"layout", nameOf(tuning.layout)},
-                                   {"kernel", nameOf(tuning.kernel)},
-                                   {"lanes", tuning.lanes},
-                                   {"workgroup_size", tuning.workgroupSize},
-                                   {"leave_traversal", tuning.leaveTraversal},
-                                   {"leave_nodes", tuning.leaveNodes},
-                                   {"vote_by_shuffle", tuning.voteByShuffle},
-                                   {"fewest_teams", tuning.fewestTeams},
-                                   {"lane_paths", tuning.lanePaths},
-                                   {"lane_crossing_paths", tuning.laneCrossingPaths},
-                                   {"lane_rays", tuning.laneRays}};
-    }
+    for (const auto& [scene, tuning] : tunings)
+        report["tuning"][scene] = toJson(tuning);
     report["results"] = Json::array();
     for (const BenchResult& r : results) {
         Json wall = Json::array();

@@ -10,6 +10,9 @@
 namespace duolux {
 
 enum class DeviceKind : std::uint8_t { kCpu, kGpu };
+inline const char* nameOf(DeviceKind kind) {
+    return kind == DeviceKind::kCpu ? "cpu" : "gpu";
+}
 
 /// What `duolux devices` shows of one physical device.
 struct DeviceInfo {
