@@ -2,21 +2,29 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/magic.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <new>
+#include <optional>
+#include <random>
 #include <system_error>
+#include <vector>
 
 #include "host/base/error.h"
-#include "host/base/temporary_folder.h"
 
 namespace duolux {
 
-std::string readFile(const std::filesystem::path& path) {
+namespace fs = std::filesystem;
+
+std::string readFile(const fs::path& path) {
     std::error_code ec;
-    if (std::filesystem::is_directory(path, ec)) {
+    if (fs::is_directory(path, ec)) {
         throw InputError(path.string(), "", "is a directory", "expected a file");
     }
     errno = 0;
@@ -37,64 +45,279 @@ std::string readFile(const std::filesystem::path& path) {
 
 namespace {
 
-/// Waits until the file is on the disk, as far as the system can tell.
-void synchronise(const std::filesystem::path& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) return;  // `write` has made none: the rename will say so
-    ::fsync(file);
-    ::close(file);
+using Write = std::function<void(FileWriter&)>;
+
+[[noreturn]] void fail(int error) {
+    throw std::system_error(error, std::generic_category());
 }
 
-/// Devices and pipes stay what they are: they get the bytes of a file that was written elsewhere.
-void writeInto(const std::filesystem::path& special,
-               const std::function<void(const std::filesystem::path&)>& write) {
-    const TemporaryFolder folder;
-    const std::filesystem::path temporary = folder / special.filename().string();
-    write(temporary);
-    const std::string bytes = readFile(temporary);
-    std::ofstream out(special, std::ios::binary | std::ios::app);
-    out << bytes;
-    out.close();
-    if (!out) throw MachineError(fmt::format("{}: cannot write: {}", special.string(), std::strerror(errno)));
+struct Descriptor {
+    int value;
+    ~Descriptor() {
+        if (value >= 0) ::close(value);
+    }
+};
+
+/// Waits until a file or folder is on the disk, where the file system can tell.
+void synchroniseDescriptor(int descriptor) {
+    if (::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS) return;
+    fail(errno);
+}
+
+fs::path folderOf(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Where bytes for a name go.
+struct Destination {
+    fs::path path;                   ///< what symbolic links lead to
+    std::optional<struct stat> old;  ///< what is there
+    bool isStream = false;           ///< a device, a pipe, or a file that is open already: appended to
+};
+
+/// Links in /proc stand for open files.
+bool isInProc(const fs::path& folder) {
+    struct statfs status {};
+    return ::statfs(folder.c_str(), &status) == 0 && status.f_type == PROC_SUPER_MAGIC;
+}
+
+/// In a folder like /tmp, another user's link may lead anywhere: as in the kernel (protected_symlinks), only
+/// one's own links and those of the folder's owner are followed there.
+bool mayFollow(const struct stat& link, const fs::path& folder) {
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) != 0) return false;
+    const bool shared = (status.st_mode & S_ISVTX) != 0 && (status.st_mode & S_IWOTH) != 0;
+    return !shared || link.st_uid == ::geteuid() || link.st_uid == status.st_uid;
+}
+
+Destination destinationOf(const fs::path& name) {
+    Destination destination{name, std::nullopt};
+    struct stat status {};
+    if (::stat(name.c_str(), &status) == 0) {
+        destination.old = status;
+        if (S_ISDIR(status.st_mode)) fail(EISDIR);
+        destination.isStream = !S_ISREG(status.st_mode);
+    } else if (errno != ENOENT) {
+        fail(errno);
+    }
+    constexpr int kMostLinks = 40;
+    struct stat link {};
+    for (int links = 0; !destination.isStream; ++links) {
+        fs::path& path = destination.path;
+        if (::lstat(path.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) break;
+        if (links == kMostLinks) fail(ELOOP);
+        const fs::path folder = folderOf(path);
+        if (!mayFollow(link, folder)) fail(EACCES);
+        if (isInProc(folder)) {
+            destination.isStream = true;
+        } else {
+            path = folder / fs::read_symlink(path);
+        }
+    }
+    return destination;
+}
+
+/// Permission to write is asked of the file, too, though its replacement needs only the folder's.
+void requirePermission(const Destination& destination) {
+    if (!destination.old) return;
+    const char* path = destination.path.c_str();
+    if (destination.isStream) {
+        if (::faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) != 0) fail(errno);
+        return;
+    }
+    constexpr mode_t kWritable = S_IWUSR | S_IWGRP | S_IWOTH;  // which root could ignore
+    if ((destination.old->st_mode & kWritable) == 0) throw std::runtime_error("the file is write-protected");
+    const Descriptor file{::open(path, O_WRONLY | O_NONBLOCK | O_CLOEXEC)};
+    if (file.value < 0) fail(errno);
+}
+
+/// Means that a file may exist which could be written into, though its folder takes no other.
+bool isFolderForbidden(int error) {
+    return error == EACCES || error == EPERM || error == EROFS;
+}
+
+/// A new file under a name that nobody can foresee, removed at the end unless it took another's place.
+class Temporary {
+  public:
+    /// Throws std::system_error.
+    Temporary(const fs::path& folder, mode_t mode) {
+        constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
+        constexpr int kRandomLetters = 12;
+        std::random_device random;
+        do {
+            std::string name = ".duolux-";
+            for (int i = 0; i < kRandomLetters; ++i)
+                name += kLetters[random() % kLetters.size()];
+            path_ = folder / name;
+            descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+        } while (descriptor_ < 0 && errno == EEXIST);
+        if (descriptor_ < 0) fail(errno);
+        writer_.emplace(descriptor_);
+    }
+    ~Temporary() {
+        if (!path_.empty()) ::unlink(path_.c_str());
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+
+    FileWriter& writer() { return *writer_; }
+
+    /// Gives it the owner and the permissions of the file that it is to replace, as far as that is allowed.
+    void takeOver(const struct stat& old) const {
+        struct stat own {};
+        if (::fstat(descriptor_, &own) == 0 && (own.st_uid != old.st_uid || own.st_gid != old.st_gid) &&
+            ::fchown(descriptor_, old.st_uid, old.st_gid) != 0) {
+            static_cast<void>(::fchown(descriptor_, static_cast<uid_t>(-1), old.st_gid));
+        }
+        static_cast<void>(::fchmod(descriptor_, old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO)));
+    }
+
+    /// Returns 0, or what kept it from being renamed.
+    int renameTo(const fs::path& path) {
+        if (::rename(path_.c_str(), path.c_str()) != 0) return errno;
+        path_.clear();
+        return 0;
+    }
+
+  private:
+    fs::path path_;
+    int descriptor_ = -1;
+    std::optional<FileWriter> writer_;
+};
+
+void writeAll(int file, const char* bytes, std::size_t count) {
+    while (count > 0) {
+        // A signal that comes while a pipe's reader is waited for ends the waiting.
+        const ssize_t written = ::write(file, bytes, count);
+        if (written < 0) fail(errno);
+        bytes += written;
+        count -= static_cast<std::size_t>(written);
+    }
+}
+
+/// Copies a file over, or to the end of, one that cannot be replaced.
+void copyInto(const Destination& destination, int source) {
+    const int flags = O_WRONLY | O_CLOEXEC | O_NOCTTY | (destination.isStream ? O_APPEND : 0);
+    const Descriptor target{::open(destination.path.c_str(), flags)};
+    if (target.value < 0) fail(errno);
+    std::vector<char> bytes(std::size_t{1} << 16);
+    off_t at = 0;
+    for (ssize_t count = 0; (count = ::pread(source, bytes.data(), bytes.size(), at)) != 0; at += count) {
+        if (count < 0) fail(errno);
+        writeAll(target.value, bytes.data(), static_cast<std::size_t>(count));
+    }
+    if (destination.isStream) return;
+    if (::ftruncate(target.value, at) != 0) fail(errno);
+    synchroniseDescriptor(target.value);
+}
+
+/// The names in a folder are on the disk. One that may not be read does without.
+void synchroniseFolder(const fs::path& folder) {
+    const Descriptor opened{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    if (opened.value >= 0) synchroniseDescriptor(opened.value);
+}
+
+/// Throws std::system_error.
+void writeTo(const Destination& destination, const Write& write) {
+    requirePermission(destination);
+    std::optional<Temporary> temporary;
+    const fs::path folder = folderOf(destination.path);
+    const bool exists = destination.old.has_value();
+    if (!destination.isStream) {
+        try {
+            temporary.emplace(folder, exists ? 0600 : 0666);
+        } catch (const std::system_error& e) {
+            if (!exists || !isFolderForbidden(e.code().value())) throw;
+        }
+    }
+    const bool beside = temporary.has_value();
+    if (!beside) temporary.emplace(fs::temp_directory_path(), 0600);
+    write(temporary->writer());
+    temporary->writer().synchronise();
+    if (beside) {
+        if (exists) temporary->takeOver(*destination.old);
+        const int error = temporary->renameTo(destination.path);
+        if (error == 0) {
+            synchroniseFolder(folder);
+            return;
+        }
+        if (!exists || !(isFolderForbidden(error) || error == EBUSY || error == EXDEV)) fail(error);
+    }
+    copyInto(destination, temporary->writer().descriptor());
+}
+
+/// Calls `step` with the destination of a name; what it throws becomes a MachineError that names the file.
+void withDestination(const fs::path& name, const std::function<void(const Destination&)>& step) {
+    std::string file = name.string();
+    const auto failed = [&](std::string_view problem) {
+        return MachineError(fmt::format("{}: cannot write: {}", file, problem));
+    };
+    try {
+        const Destination destination = destinationOf(name);
+        if (destination.path != name) file += fmt::format(" (a link to {})", destination.path.string());
+        step(destination);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::system_error& e) {
+        throw failed(e.code().message());
+    } catch (const std::bad_alloc&) {
+        throw failed("out of memory");
+    } catch (const std::exception& e) {
+        throw failed(e.what());
+    }
 }
 
 }  // namespace
 
-void writeFileAtomically(const std::filesystem::path& name,
-                         const std::function<void(const std::filesystem::path&)>& write) {
-    std::error_code ec;
-    const std::filesystem::path linked = std::filesystem::canonical(name, ec);
-    const std::filesystem::path& path = ec ? name : linked;  // none there yet: ec
-    if (!ec && !std::filesystem::is_regular_file(path, ec) && !std::filesystem::is_directory(path, ec)) {
-        writeInto(path, write);
-        return;
-    }
-    // The extension is kept: some writers choose the format by it.
-    std::filesystem::path temporary = path;
-    temporary.replace_filename(
-        fmt::format(".{}.{}{}", path.stem().string(), ::getpid(), path.extension().string()));
-    try {
-        write(temporary);
-        synchronise(temporary);
-        std::filesystem::rename(temporary, path);
-    } catch (const Error&) {
-        std::filesystem::remove(temporary, ec);
-        throw;
-    } catch (const std::filesystem::filesystem_error& e) {
-        std::filesystem::remove(temporary, ec);
-        throw MachineError(fmt::format("{}: cannot write: {}", path.string(), e.code().message()));
-    } catch (const std::exception& e) {
-        std::filesystem::remove(temporary, ec);
-        throw MachineError(fmt::format("{}: cannot write: {}", path.string(), e.what()));
-    }
+FileWriter::FileWriter(int descriptor) : file_(::fdopen(descriptor, "w")) {
+    if (file_ != nullptr) return;
+    const int error = errno;
+    ::close(descriptor);
+    fail(error);
 }
 
-void writeFile(const std::filesystem::path& path, std::string_view bytes) {
-    writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        out << bytes;
-        out.close();
-        if (!out) throw MachineError(path.string() + ": cannot write");
+FileWriter::~FileWriter() {
+    static_cast<void>(std::fclose(file_));
+}
+
+void FileWriter::write(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
+}
+
+std::uint64_t FileWriter::position() const {
+    return static_cast<std::uint64_t>(::ftello(file_));
+}
+
+void FileWriter::seek(std::uint64_t position) {
+    if (::fseeko(file_, static_cast<off_t>(position), SEEK_SET) != 0) fail(errno);
+}
+
+void FileWriter::synchronise() {
+    if (std::fflush(file_) != 0) fail(errno);
+    synchroniseDescriptor(::fileno(file_));
+}
+
+int FileWriter::descriptor() const {
+    return ::fileno(file_);
+}
+
+void writeFileAtomically(const fs::path& path, const Write& write) {
+    withDestination(path, [&](const Destination& destination) { writeTo(destination, write); });
+}
+
+void writeFile(const fs::path& path, std::string_view bytes) {
+    writeFileAtomically(path, [&](FileWriter& file) { file.write(bytes); });
+}
+
+void checkWritable(const fs::path& path) {
+    withDestination(path, [](const Destination& destination) {
+        requirePermission(destination);
+        if (destination.isStream) return;
+        try {
+            const Temporary probe(folderOf(destination.path), 0600);
+        } catch (const std::system_error& e) {
+            if (!destination.old || !isFolderForbidden(e.code().value())) throw;
+        }
     });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -10,15 +12,40 @@ namespace duolux {
 /// The whole file as bytes. Throws InputError if it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
-/// Writes a file so that a reader sees the old one or the complete new one, never a part: `write` is given
-/// the path of a temporary in the same folder, which is then renamed over `path`. The temporary is removed if
-/// `write` throws. A symbolic link stays one: the file that it names is replaced. What is neither a file nor
-/// a link, as a device or a pipe, stays what it is, too, and is written into. What was written is on the disk
-/// before it takes the old one's place. Throws MachineError naming `path` if the folder cannot be written to.
-void writeFileAtomically(const std::filesystem::path& path,
-                         const std::function<void(const std::filesystem::path& temporary)>& write);
+/// An empty file that is being written. Every failure throws std::system_error.
+class FileWriter {
+  public:
+    /// Takes over an open file.
+    explicit FileWriter(int descriptor);
+    ~FileWriter();
+    FileWriter(const FileWriter&) = delete;
+    FileWriter& operator=(const FileWriter&) = delete;
+
+    void write(std::string_view bytes);
+    std::uint64_t position() const;
+    void seek(std::uint64_t position);
+
+    /// Waits until all is on the disk.
+    void synchronise();
+    int descriptor() const;
+
+  private:
+    std::FILE* file_;
+};
+
+/// Writes a file so that a reader sees the old one or the complete new one, never a part: `write` fills a
+/// temporary in the same folder, which is renamed over `path` once it is on the disk, and removed if anything
+/// throws. The old file's permissions stay, and its owner where that is permitted; a write-protected file is
+/// not replaced.
+/// A symbolic link stays one: the file that it names is written. What is no regular file, as a device or a
+/// pipe, is written into, as is a file that cannot be replaced (in a folder without permission, or a mount).
+/// Throws MachineError naming `path`; errors of this program that `write` throws pass through.
+void writeFileAtomically(const std::filesystem::path& path, const std::function<void(FileWriter&)>& write);
 
 /// Writes a whole file like that.
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
+
+/// Throws MachineError if writeFileAtomically could not write the file now. Leaves nothing behind.
+void checkWritable(const std::filesystem::path& path);
 
 }  // namespace duolux

@@ -4,10 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <stdexcept>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -39,14 +35,6 @@ const Format* formatOf(const std::filesystem::path& path) {
     });
     const auto* format = std::ranges::find(kFormats, extension, &Format::extension);
     return format != std::end(kFormats) ? format : nullptr;
-}
-
-void writeBytes(const std::filesystem::path& path, std::string_view bytes) {
-    errno = 0;
-    std::ofstream out(path, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw std::runtime_error(errno != 0 ? std::strerror(errno) : "write failed");
 }
 
 }  // namespace
@@ -90,9 +78,7 @@ void writeImage(const std::filesystem::path& path, const RadianceImage& image, c
         throw MachineError(
             fmt::format("{}: unknown image format; expected .exr, .png or .pfm", path.string()));
     }
-    writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
-        writeBytes(temporary, format->encode(image, options));
-    });
+    writeFileAtomically(path, [&](FileWriter& file) { file.write(format->encode(image, options)); });
 }
 
 RadianceImage readImage(const std::filesystem::path& path) {

@@ -1,10 +1,16 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <grp.h>
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <fstream>
+#include <functional>
+#include <set>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -14,6 +20,7 @@ namespace duolux {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
 
 class FileTest : public testing::Test {
   protected:
@@ -23,6 +30,48 @@ class FileTest : public testing::Test {
     std::size_t filesInFolder() const {
         return static_cast<std::size_t>(
             std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+
+    static mode_t modeOf(const fs::path& path) {
+        struct stat status {};
+        EXPECT_EQ(::stat(path.c_str(), &status), 0) << path;
+        return status.st_mode & 07777;
+    }
+    /// The message of the MachineError that this throws, if it does.
+    static std::string errorOf(const std::function<void()>& step) {
+        try {
+            step();
+        } catch (const MachineError& e) {
+            return e.what();
+        }
+        return "";
+    }
+
+    static constexpr uid_t kNobody = 65534;
+    /// In a process of a user without privileges who owns the folder and what is in it; returns its exit
+    /// status.
+    int asAnotherUser(const std::function<int()>& step) const {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            if (::geteuid() == 0) {
+                for (const auto& entry : fs::directory_iterator(folder_)) {
+                    if (::chown(entry.path().c_str(), kNobody, kNobody) != 0) ::_exit(101);
+                }
+                if (::chown(folder_.c_str(), kNobody, kNobody) != 0 || ::setgroups(0, nullptr) != 0 ||
+                    ::setgid(kNobody) != 0 || ::setuid(kNobody) != 0) {
+                    ::_exit(102);
+                }
+            }
+            try {
+                ::_exit(step());
+            } catch (const std::exception& e) {
+                std::fprintf(stderr, "%s\n", e.what());
+                ::_exit(100);
+            }
+        }
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return status;
     }
 
     TemporaryFolder temporary_;
@@ -42,18 +91,150 @@ TEST_F(FileTest, CannotReadWhatIsNoFile) {
     EXPECT_THROW(readFile(folder_), InputError);
 }
 
-TEST_F(FileTest, WritesUnderATemporaryNameOfTheSameExtension) {
+TEST_F(FileTest, WritesBesideTheOldFileUntilAllIsThere) {
     const fs::path path = folder_ / "image.exr";
     write(path, "old");
-    writeFileAtomically(path, [&](const fs::path& temporary) {
-        EXPECT_NE(temporary, path);
-        EXPECT_EQ(temporary.parent_path(), folder_);
-        EXPECT_EQ(temporary.extension(), ".exr");
-        write(temporary, "new");
+    writeFileAtomically(path, [&](FileWriter& file) {
+        file.write("n__");
+        EXPECT_EQ(file.position(), 3u);
+        file.seek(1);
+        file.write("ew");
+        EXPECT_EQ(filesInFolder(), 2u);
         EXPECT_EQ(readFile(path), "old");
     });
     EXPECT_EQ(readFile(path), "new");
     EXPECT_EQ(filesInFolder(), 1u);
+}
+
+/// The temporary of the file being written.
+fs::path temporaryIn(const fs::path& folder, const fs::path& path) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path() != path) return entry.path();
+    }
+    return {};
+}
+
+TEST_F(FileTest, NobodyCanForeseeATemporary) {
+    std::set<fs::path> names;
+    const fs::path path = folder_ / "a.png";
+    for (int i = 0; i < 5; ++i) {
+        writeFileAtomically(path, [&](FileWriter&) { names.insert(temporaryIn(folder_, path)); });
+    }
+    EXPECT_EQ(names.size(), 5u);
+}
+
+TEST_F(FileTest, PermissionsOfTheOldFileStay) {
+    const mode_t old = ::umask(027);
+    writeFile(folder_ / "new", "x");
+    ::umask(old);
+    EXPECT_EQ(modeOf(folder_ / "new"), 0640u);
+    for (const mode_t mode : {0600u, 0664u, 0200u}) {
+        ASSERT_EQ(::chmod((folder_ / "new").c_str(), mode), 0);
+        writeFileAtomically(folder_ / "new", [&](FileWriter& file) {
+            EXPECT_EQ(modeOf(temporaryIn(folder_, folder_ / "new")), 0600u);  // nobody reads it meanwhile
+            file.write("y");
+        });
+        EXPECT_EQ(modeOf(folder_ / "new"), mode);
+    }
+}
+
+TEST_F(FileTest, AWriteProtectedFileStays) {
+    write(folder_ / "f", "old");
+    ASSERT_EQ(::chmod((folder_ / "f").c_str(), 0444), 0);
+    for (const std::string& error : {errorOf([&] { writeFile(folder_ / "f", "new"); }),
+                                     errorOf([&] { checkWritable(folder_ / "f"); })}) {
+        EXPECT_EQ(error, (folder_ / "f").string() + ": cannot write: the file is write-protected");
+    }
+    EXPECT_EQ(readFile(folder_ / "f"), "old");
+}
+
+TEST_F(FileTest, ALinkToNothingMakesTheFileThatItNames) {
+    fs::create_directory(folder_ / "sub");
+    fs::create_symlink("sub/second", folder_ / "first");
+    fs::create_symlink("third", folder_ / "sub/second");
+    checkWritable(folder_ / "first");
+    writeFile(folder_ / "first", "new");
+    EXPECT_TRUE(fs::is_symlink(folder_ / "first"));
+    EXPECT_EQ(readFile(folder_ / "sub/third"), "new");
+    fs::create_symlink("circle", folder_ / "circle");
+    EXPECT_THAT(errorOf([&] { writeFile(folder_ / "circle", "x"); }), HasSubstr("symbolic links"));
+}
+
+TEST_F(FileTest, TheLongestNameIsWritten) {
+    const std::string longest(255, 'x');
+    checkWritable(folder_ / longest);
+    writeFile(folder_ / longest, "new");
+    writeFile(folder_ / longest, "newer");
+    EXPECT_EQ(readFile(folder_ / longest), "newer");
+    EXPECT_THAT(errorOf([&] { checkWritable(folder_ / (longest + "x")); }), HasSubstr("File name too long"));
+}
+
+TEST_F(FileTest, AFileOfAFolderWithoutPermissionIsWrittenInPlace) {
+    write(folder_ / "f", "a longer old file");
+    // To root all is permitted.
+    const int status = asAnotherUser([&] {
+        ::chmod((folder_ / "f").c_str(), 0666);
+        ::chmod(folder_.c_str(), 0555);
+        checkWritable(folder_ / "f");
+        writeFile(folder_ / "f", "new");
+        if (errorOf([&] { checkWritable(folder_ / "none"); }).find("Permission denied") == std::string::npos)
+            return 3;
+        return 0;
+    });
+    ::chmod(folder_.c_str(), 0755);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(readFile(folder_ / "f"), "new");
+    EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(FileTest, AnotherUsersLinkInASharedFolderIsNotFollowed) {
+    if (::geteuid() != 0) GTEST_SKIP() << "needs another user's link";
+    write(folder_ / "victim", "old");
+    fs::create_directory(folder_ / "shared");
+    ASSERT_EQ(::chmod((folder_ / "shared").c_str(), 01777), 0);
+    fs::create_symlink("../victim", folder_ / "shared/link");
+    EXPECT_EQ(errorOf([&] { checkWritable(folder_ / "shared/link"); }), "");
+    ASSERT_EQ(::lchown((folder_ / "shared/link").c_str(), kNobody, kNobody), 0);
+    EXPECT_THAT(errorOf([&] { writeFile(folder_ / "shared/link", "new"); }), HasSubstr("Permission denied"));
+    EXPECT_EQ(readFile(folder_ / "victim"), "old");
+}
+
+TEST_F(FileTest, TheOwnerStaysWherePermitted) {
+    if (::geteuid() != 0) GTEST_SKIP() << "needs root";
+    write(folder_ / "f", "old");
+    ASSERT_EQ(::chown((folder_ / "f").c_str(), kNobody, kNobody), 0);
+    writeFile(folder_ / "f", "new");
+    struct stat status {};
+    ASSERT_EQ(::stat((folder_ / "f").c_str(), &status), 0);
+    EXPECT_EQ(status.st_uid, kNobody);
+    EXPECT_EQ(status.st_gid, kNobody);
+}
+
+TEST_F(FileTest, AMountedFileIsWrittenInPlace) {
+    write(folder_ / "outside", "a longer old file");
+    write(folder_ / "inside", "");
+    if (::geteuid() != 0 || ::mount((folder_ / "outside").c_str(), (folder_ / "inside").c_str(), nullptr,
+                                    MS_BIND, nullptr) != 0) {
+        GTEST_SKIP() << "needs to mount";
+    }
+    EXPECT_EQ(errorOf([&] {
+                  checkWritable(folder_ / "inside");
+                  writeFile(folder_ / "inside", "new");
+              }),
+              "");
+    ::umount((folder_ / "inside").c_str());
+    EXPECT_EQ(readFile(folder_ / "outside"), "new");
+    EXPECT_EQ(filesInFolder(), 2u);
+}
+
+TEST_F(FileTest, WhatIsOpenAlreadyIsAppendedTo) {
+    const int file = ::open((folder_ / "out").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    ASSERT_EQ(::write(file, "first ", 6), 6);
+    fs::create_symlink("/proc/self/fd/" + std::to_string(file), folder_ / "link");
+    writeFile(folder_ / "link", "second ");
+    ASSERT_EQ(::lseek(file, 0, SEEK_END), 13);
+    ::close(file);
+    EXPECT_EQ(readFile(folder_ / "out"), "first second ");
 }
 
 TEST_F(FileTest, ALinkStaysOne) {
@@ -70,10 +251,8 @@ TEST_F(FileTest, APipeStaysOneAndIsWrittenInto) {
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     ASSERT_GE(reader, 0);
-    writeFileAtomically(pipe, [&](const fs::path& temporary) {
-        EXPECT_EQ(temporary.extension(), ".exr");
-        write(temporary, "bytes");
-    });
+    checkWritable(pipe);
+    writeFile(pipe, "bytes");
     char bytes[16];
     const ssize_t count = ::read(reader, bytes, sizeof bytes);
     ::close(reader);
@@ -87,8 +266,8 @@ TEST_F(FileTest, AFailedWriteLeavesTheOldFileAlone) {
     const fs::path path = folder_ / "image.exr";
     write(path, "old");
     try {
-        writeFileAtomically(path, [&](const fs::path& temporary) {
-            write(temporary, "half of the n");
+        writeFileAtomically(path, [&](FileWriter& file) {
+            file.write("half of the n");
             throw std::runtime_error("disk on fire");
         });
         FAIL() << "expected MachineError";
@@ -100,7 +279,7 @@ TEST_F(FileTest, AFailedWriteLeavesTheOldFileAlone) {
 }
 
 TEST_F(FileTest, ErrorsOfTheProgramPassThrough) {
-    const auto fail = [](const fs::path&) { throw InputError("scene.json", "", "is odd", ""); };
+    const auto fail = [](FileWriter&) { throw InputError("scene.json", "", "is odd", ""); };
     EXPECT_THROW(writeFileAtomically(folder_ / "f", fail), InputError);
     EXPECT_EQ(filesInFolder(), 0u);
 }
