@@ -13,13 +13,14 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
     ImageOptions out;
     out.display = origin.display;
     out.exposure = exposure;
+    // "version", "type" and "name" have a meaning of their own in OpenEXR.
     out.metadata = {{"reflectance", origin.reflectance},
                     {"integrator", nameOf(origin.settings.integrator)},
                     {"spp", fmt::format("{:g}", samples / pixels)},
                     {"seed", fmt::format("{}", origin.settings.seed)},
                     {"bounces", fmt::format("{}", origin.settings.bounces)},
                     {"scene hash", origin.sceneHash},
-                    {"version", fmt::format("duolux {} ({})", versionString(), commitString())}};
+                    {"Software", fmt::format("duolux {} ({})", versionString(), commitString())}};
     return out;
 }
 
