@@ -9,9 +9,31 @@
 
 namespace duolux {
 
+namespace {
+
+std::atomic<unsigned> chosenWorkers{0};
+
+}  // namespace
+
 unsigned workerCount() {
-    return std::max(1u, std::thread::hardware_concurrency());
+    const unsigned chosen = chosenWorkers;
+    return chosen > 0 ? chosen : std::max(1u, std::thread::hardware_concurrency());
 }
+
+void limitWorkers(unsigned count) {
+    chosenWorkers = count;
+}
+
+void runOnThreads(std::size_t threads, const std::function<void()>& work) {
+    std::vector<std::jthread> pool;
+    try {
+        while (pool.size() + 1 < threads)
+            pool.emplace_back(work);
+    } catch (const std::exception&) {
+        // No more threads, or no memory for their stacks: those that there are do all of it.
+    }
+    work();
+}  // joins
 
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body) {
@@ -37,11 +59,7 @@ void parallelFor(std::size_t count, std::size_t grain,
             next = chunks;
         }
     };
-    std::vector<std::jthread> pool;
-    for (std::size_t i = 1; i < threads; ++i)
-        pool.emplace_back(work);
-    work();
-    pool.clear();  // joins
+    runOnThreads(threads, work);
     if (failure) std::rethrow_exception(failure);
 }
 

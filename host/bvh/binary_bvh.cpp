@@ -8,7 +8,6 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
-#include <thread>
 
 #include "host/base/parallel.h"
 
@@ -259,12 +258,8 @@ class Builder {
 
     BinaryBvh build() {
         tasks_.push_back({0, 0, static_cast<std::uint32_t>(refs_.size()), extentOf(refs_)});
-        std::vector<std::jthread> pool;
         const bool parallel = refs_.size() > kParallelThreshold;
-        for (unsigned i = 1; parallel && i < workerCount(); ++i)
-            pool.emplace_back([this] { work(); });
-        work();
-        pool.clear();  // joins
+        runOnThreads(parallel ? workerCount() : 1, [this] { work(); });
         if (failure_) std::rethrow_exception(failure_);
         return std::move(bvh_);
     }

@@ -1,11 +1,19 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <chrono>
+#include <fstream>
+#include <mutex>
 #include <numeric>
+#include <set>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "host/base/parallel.h"
+#include "tests/support/sanitizer.h"
 
 namespace duolux {
 namespace {
@@ -33,8 +41,51 @@ TEST(ParallelFor, RethrowsWhatABodyThrows) {
                  std::domain_error);
 }
 
-TEST(WorkerCount, IsPositive) {
-    EXPECT_GE(workerCount(), 1u);
+TEST(WorkerCount, IsTheNumberOfCoresUnlessChosen) {
+    const unsigned cores = workerCount();
+    EXPECT_GE(cores, 1u);
+    limitWorkers(cores + 3);
+    EXPECT_EQ(workerCount(), cores + 3);
+    limitWorkers(0);
+    EXPECT_EQ(workerCount(), cores);
+}
+
+/// Threads that a loop of so many chunks runs on.
+unsigned threadsThatWork(std::size_t chunks) {
+    std::mutex mutex;
+    std::set<std::thread::id> threads;
+    parallelFor(chunks, 1, [&](std::size_t, std::size_t) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const std::lock_guard lock(mutex);
+        threads.insert(std::this_thread::get_id());
+    });
+    return static_cast<unsigned>(threads.size());
+}
+
+TEST(ParallelFor, UsesTheThreadsThatWereChosen) {
+    limitWorkers(1);
+    EXPECT_EQ(threadsThatWork(20), 1u);
+    limitWorkers(4);
+    EXPECT_EQ(threadsThatWork(40), 4u);
+    limitWorkers(0);
+}
+
+TEST(ParallelFor, DoesWithFewerThreadsThanWereChosen) {
+    if (test::kAddressSanitizer) GTEST_SKIP();
+    // Two stacks fit into the address space that is left, but not sixteen.
+    rlimit old{};
+    ::getrlimit(RLIMIT_AS, &old);
+    rlimit limit = old;
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    limit.rlim_cur = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + (std::size_t{20} << 20);
+    limitWorkers(16);
+    std::atomic<int> sum{0};
+    ::setrlimit(RLIMIT_AS, &limit);
+    EXPECT_NO_THROW(parallelFor(100, 1, [&](std::size_t begin, std::size_t) { sum += int(begin); }));
+    ::setrlimit(RLIMIT_AS, &old);
+    limitWorkers(0);
+    EXPECT_EQ(sum, 4950);
 }
 
 }  // namespace
