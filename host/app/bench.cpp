@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/machine_options.h"
 #include "host/app/options.h"
 #include "host/app/tuning_options.h"
 #include "host/base/error.h"
@@ -58,7 +59,7 @@ void bench(const BenchOptions& options) {
         baseline = readBaseline(options.baseline);
         checkSettings(settings, baseline, options.baseline);
     }
-    Device device(options.device);
+    Device device = openDevice(options.device);
     const bool table = options.json != "-";
     if (table) fmt::print("{}, {}\n", device.info().name, device.info().driver);
     const TemporaryFolder scratch;
@@ -127,10 +128,8 @@ void addBenchCommand(CLI::App& app) {
                                  "SCENE/ and one of {}",
                                  kBenchmarkNames))
         ->allow_extra_args(false);
-    command
-        ->add_option("--device", options->device,
-                     "cpu, gpu, an index or a part of a name (see 'duolux devices')")
-        ->type_name("DEVICE");
+    addDeviceOption(*command, options->device);
+    addThreadsOption(*command);
     addTuningOptions(*command, options->tuning);
     command->add_option("--repeat", options->repeat, "Runs that count, in turns, after one that does not")
         ->type_name("N")

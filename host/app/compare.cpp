@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/machine_options.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
@@ -192,6 +193,7 @@ void addCompareCommand(CLI::App& app) {
         ->check(CLI::IsMember({"srgb", "linear"}))
         ->capture_default_str()
         ->type_name("NAME");
+    addThreadsOption(*command);
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/app/commands.h"
+#include "host/app/machine_options.h"
 #include "host/base/error.h"
 #include "host/vk/device.h"
 #include "shaders/shared/bvh_layout.h"
@@ -30,7 +31,7 @@ void printDevice(const DeviceInfo& device, bool chosen) {
 }
 
 void runDevices() {
-    const std::vector<DeviceInfo> devices = listDevices();
+    const std::vector<DeviceInfo> devices = findDevices();
     const DeviceInfo* chosen = nullptr;
     try {
         chosen = &selectDevice(devices, "");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/machine_options.h"
 #include "host/scene/energy.h"
 #include "host/scene/load.h"
 
@@ -171,6 +172,7 @@ void addInfoCommand(CLI::App& app) {
         app.add_subcommand("info", "Show what a scene file holds: triangles, materials, lights, energy");
     auto path = std::make_shared<std::string>();
     command->add_option("SCENE", *path, "An .obj or .json scene")->required();
+    addThreadsOption(*command);
     command->callback([path] { printInfo(loadScene(*path)); });
 }
 

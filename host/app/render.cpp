@@ -13,6 +13,7 @@
 #include "host/app/commands.h"
 #include "host/app/film_images.h"
 #include "host/app/interrupt.h"
+#include "host/app/machine_options.h"
 #include "host/app/options.h"
 #include "host/app/report.h"
 #include "host/app/tuning_options.h"
@@ -223,7 +224,7 @@ void runRender(const RenderOptions& options) {
     if (resumed) prepareResume(options, *resumed, scene, control);
     seconds.load = secondsSince(start);
 
-    Device device(options.device);
+    Device device = openDevice(options.device);
     Progress progress(Progress::styleForStderr(options.quiet));
     control.onProgress = [&](const RenderProgress& p) {
         if (p.samplesTotal == 0) return true;  // all has been resumed
@@ -340,11 +341,8 @@ void addRenderCommand(CLI::App& app) {
             "form for local")
         ->type_name("NAME")
         ->check(CLI::IsMember({"auto", "sampled", "closed-form"}));
-    command
-        ->add_option(
-            "--device", options->device,
-            "cpu, gpu, an index or a part of a name, see 'duolux devices' (default: a GPU if there is one)")
-        ->type_name("DEVICE");
+    addDeviceOption(*command, options->device);
+    addThreadsOption(*command);
     addTuningOptions(*command, options->tuning);
     command
         ->add_option("--time-limit", options->timeLimit,

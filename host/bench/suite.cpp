@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/base/process.h"
 #include "host/bench/ray_sets.h"
 #include "host/bench/trace_kernel.h"
@@ -228,6 +229,8 @@ void SceneSuite::State::addStart() {
                                              nameOf(deviceScene.tuning.layout),
                                              "--kernel",
                                              nameOf(deviceScene.tuning.kernel),
+                                             "--threads",
+                                             std::to_string(workerCount()),
                                              "-o",
                                              (folder / "start.pfm").string()};
     add("start/warm", "s", 1.0, [=, this] {

@@ -97,8 +97,7 @@ AccelerationStructure::AccelerationStructure(const Device& device, const Buffer&
                                              std::span<const Part> parts) try
     : parts_(buildParts(device, vertices, indices, parts)), top_(buildTop(device, parts_, parts)) {
 } catch (const vk::SystemError& e) {
-    throw MachineError(fmt::format("building a tree for ray queries failed on {} ({}): {}",
-                                   device.info().name, device.info().driver, e.what()));
+    throw failureOn(device.info(), "building a tree for ray queries", e);
 }
 
 std::uint64_t AccelerationStructure::allocated() const {

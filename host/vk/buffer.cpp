@@ -104,8 +104,7 @@ Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::Buff
                 vk::BufferViewCreateInfo({}, *buffer_, vk::Format::eR32G32B32A32Uint, 0, VK_WHOLE_SIZE));
         }
     } catch (const vk::SystemError& e) {
-        throw MachineError(fmt::format("{} ({}): allocating {} bytes for {}: {}", device.info().name,
-                                       device.info().driver, size_, name, e.what()));
+        throw failureOn(device.info(), fmt::format("allocating {} bytes for {}", size_, name), e);
     }
 }
 

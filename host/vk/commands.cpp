@@ -1,10 +1,6 @@
 #include "host/vk/commands.h"
 
-#include <fmt/format.h>
-
 #include <array>
-
-#include "host/base/error.h"
 
 namespace duolux {
 
@@ -18,11 +14,6 @@ vk::raii::CommandBuffer allocate(const Device& device, const vk::raii::CommandPo
 vk::raii::QueryPool makeTimestamps(const Device& device) {
     if (device.timestampPeriod() == 0.0) return nullptr;
     return {device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)};
-}
-
-MachineError failure(const Device& device, std::string_view stage, std::string_view why) {
-    return MachineError(
-        fmt::format("{} failed on {} ({}): {}", stage, device.info().name, device.info().driver, why));
 }
 
 }  // namespace
@@ -71,14 +62,14 @@ void CommandSlot::submit(std::string_view stage,
         device_->queue().submit(submit, *fence_);
         inFlight_ = true;
     } catch (const vk::SystemError& e) {
-        throw failure(*device_, stage, e.what());
+        throw failureOn(device_->info(), stage, e);
     }
 }
 
 double CommandSlot::wait(std::string_view stage) {
     try {
-        const vk::Result result = device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX);
-        if (result != vk::Result::eSuccess) throw failure(*device_, stage, vk::to_string(result));
+        // Without a time limit, whatever is not success is thrown.
+        static_cast<void>(device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX));
         inFlight_ = false;
         if (device_->timestampPeriod() == 0.0) return 0.0;
         const auto [status, ticks] = timestamps_.getResults<std::uint64_t>(
@@ -86,7 +77,7 @@ double CommandSlot::wait(std::string_view stage) {
         if (status != vk::Result::eSuccess) return 0.0;
         return static_cast<double>(ticks[1] - ticks[0]) * device_->timestampPeriod() * 1e-9;
     } catch (const vk::SystemError& e) {
-        throw failure(*device_, stage, e.what());
+        throw failureOn(device_->info(), stage, e);
     }
 }
 

@@ -6,64 +6,19 @@
 #include <array>
 #include <charconv>
 #include <cstring>
-#include <mutex>
 
 #include "host/base/error.h"
-#include "host/base/version.h"
+#include "host/base/memory.h"
 
 namespace duolux {
 
 namespace {
-
-constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 std::string lowered(std::string_view text) {
     std::string out(text);
     for (char& c : out)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return out;
-}
-
-vk::raii::Context makeContext() {
-    try {
-        return vk::raii::Context();
-    } catch (const std::exception&) {
-        throw MachineError(
-            "no Vulkan loader found; install libvulkan1 and a driver (mesa-vulkan-drivers has lavapipe)");
-    }
-}
-
-vk::raii::Instance makeInstance(const vk::raii::Context& context, Validation validation) {
-    const vk::ApplicationInfo application("duolux", 0, "duolux", 0, VK_API_VERSION_1_2);
-    std::vector<const char*> layers;
-    std::vector<const char*> extensions;
-    const std::array<vk::ValidationFeatureEnableEXT, 1> enables{
-        vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
-    vk::ValidationFeaturesEXT features(enables);
-    vk::InstanceCreateInfo create({}, &application);
-    if (validation == Validation::kOn) {
-        const auto available = context.enumerateInstanceLayerProperties();
-        const bool found =
-            std::any_of(available.begin(), available.end(), [](const vk::LayerProperties& layer) {
-                return std::strcmp(layer.layerName, kValidationLayer) == 0;
-            });
-        if (!found) {
-            throw MachineError(
-                fmt::format("{} is not installed; install vulkan-validationlayers", kValidationLayer));
-        }
-        layers.push_back(kValidationLayer);
-        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
-        create.setPNext(&features);
-    }
-    create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
-    try {
-        return vk::raii::Instance(context, create);
-    } catch (const vk::SystemError& e) {
-        throw MachineError(fmt::format(
-            "cannot create a Vulkan instance: {}; is a driver installed? (Debian: mesa-vulkan-drivers)",
-            e.what()));
-    }
 }
 
 constexpr std::array kRayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
@@ -147,18 +102,6 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
     return info;
 }
 
-std::vector<vk::raii::PhysicalDevice> physicalDevices(const vk::raii::Instance& instance) {
-    std::vector<vk::raii::PhysicalDevice> devices;
-    try {
-        devices = instance.enumeratePhysicalDevices();
-    } catch (const vk::SystemError&) {
-        devices.clear();  // the loader found no working driver
-    }
-    if (devices.empty())
-        throw MachineError("no Vulkan device found; install mesa-vulkan-drivers for lavapipe");
-    return devices;
-}
-
 std::vector<DeviceInfo> describeAll(const std::vector<vk::raii::PhysicalDevice>& devices) {
     std::vector<DeviceInfo> infos;
     for (std::uint32_t i = 0; i < devices.size(); ++i)
@@ -189,8 +132,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
     try {
         return vk::raii::Device(physical, create);
     } catch (const vk::SystemError& e) {
-        throw MachineError(
-            fmt::format("cannot create a device on {} ({}): {}", info.name, info.driver, e.what()));
+        throw failureOn(info, "creating a logical device", e);
     }
 }
 
@@ -204,43 +146,9 @@ std::uint32_t computeFamily(const vk::raii::PhysicalDevice& physical) {
 
 }  // namespace
 
-struct Device::MessageLog {
-    mutable std::mutex mutex;
-    std::vector<std::string> messages;
-
-    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                                  VkDebugUtilsMessageTypeFlagsEXT,
-                                                  const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                                  void* user) {
-        MessageLog& log = *static_cast<MessageLog*>(user);
-        const std::lock_guard lock(log.mutex);
-        log.messages.emplace_back(data->pMessage);
-        return VK_FALSE;
-    }
-};
-
-namespace {
-
-vk::raii::DebugUtilsMessengerEXT makeMessenger(const vk::raii::Instance& instance, Validation validation,
-                                               PFN_vkDebugUtilsMessengerCallbackEXT callback, void* user) {
-    if (validation == Validation::kOff) return nullptr;
-    VkDebugUtilsMessengerCreateInfoEXT create{};
-    create.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
-    create.messageSeverity =
-        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    create.messageType =
-        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
-    create.pfnUserCallback = callback;
-    create.pUserData = user;
-    return {instance, vk::DebugUtilsMessengerCreateInfoEXT(create)};
-}
-
-}  // namespace
-
 std::vector<DeviceInfo> listDevices() {
-    const vk::raii::Context context = makeContext();
-    const vk::raii::Instance instance = makeInstance(context, Validation::kOff);
-    return describeAll(physicalDevices(instance));
+    const Instance instance(Validation::kOff);
+    return describeAll(instance.devices());
 }
 
 const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::string_view selector) {
@@ -279,15 +187,16 @@ const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::stri
     throw UsageError(fmt::format("--device {}: no such usable device; there is {}", selector, there));
 }
 
+MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error) {
+    const auto result = static_cast<vk::Result>(error.code().value());
+    return MachineError(fmt::format("{} failed on {} ({}): {}{}", stage, device.name, device.driver,
+                                    error.what(),
+                                    result == vk::Result::eErrorDeviceLost ? "" : addressSpaceHint()));
+}
+
 Device::Device(std::string_view selector, Validation validation)
-    : log_(std::make_unique<MessageLog>()),
-      context_(makeContext()),
-      instance_(makeInstance(context_, validation)),
-      messenger_(makeMessenger(instance_, validation, &MessageLog::receive, log_.get())),
-      physical_(nullptr),
-      device_(nullptr),
-      queue_(nullptr) {
-    std::vector<vk::raii::PhysicalDevice> all = physicalDevices(instance_);
+    : instance_(validation), physical_(nullptr), device_(nullptr), queue_(nullptr) {
+    std::vector<vk::raii::PhysicalDevice> all = instance_.devices();
     info_ = selectDevice(describeAll(all), selector);
     physical_ = std::move(all[info_.index]);
     queueFamily_ = computeFamily(physical_);
@@ -296,13 +205,6 @@ Device::Device(std::string_view selector, Validation validation)
     if (physical_.getQueueFamilyProperties()[queueFamily_].timestampValidBits > 0) {
         timestampPeriod_ = static_cast<double>(physical_.getProperties().limits.timestampPeriod);
     }
-}
-
-Device::~Device() = default;
-
-std::vector<std::string> Device::validationMessages() const {
-    const std::lock_guard lock(log_->mutex);
-    return log_->messages;
 }
 
 }  // namespace duolux

@@ -7,6 +7,8 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
+#include "host/vk/instance.h"
+
 namespace duolux {
 
 enum class DeviceKind : std::uint8_t { kCpu, kGpu };
@@ -31,7 +33,7 @@ struct DeviceInfo {
     std::string unusable;                ///< empty, or which required feature is missing
 };
 
-/// All physical devices, usable or not. Throws MachineError if there is no Vulkan loader or driver.
+/// All physical devices, usable or not. Throws NoDriverError if there is no Vulkan loader or driver.
 std::vector<DeviceInfo> listDevices();
 
 /// The device chosen by `selector`: "" (a usable GPU if there is one, else the software driver), "cpu",
@@ -39,16 +41,13 @@ std::vector<DeviceInfo> listDevices();
 /// matches.
 const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::string_view selector);
 
-enum class Validation : std::uint8_t {
-    kOff,
-    kOn  ///< core and synchronization validation; throws MachineError if the layer is not installed
-};
+/// What to throw where a call to a device has failed; `stage`: in which stage, as in "tracing paths".
+MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error);
 
 /// A logical device with one compute queue.
 class Device {
   public:
     explicit Device(std::string_view selector = "", Validation validation = Validation::kOff);
-    ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
@@ -60,14 +59,10 @@ class Device {
     double timestampPeriod() const { return timestampPeriod_; }  ///< nanoseconds per tick; 0: no timestamps
 
     /// Warnings and errors from the validation layer since creation (empty unless Validation::kOn).
-    std::vector<std::string> validationMessages() const;
+    std::vector<std::string> validationMessages() const { return instance_.validationMessages(); }
 
   private:
-    struct MessageLog;
-    std::unique_ptr<MessageLog> log_;
-    vk::raii::Context context_;
-    vk::raii::Instance instance_;
-    vk::raii::DebugUtilsMessengerEXT messenger_;
+    Instance instance_;
     DeviceInfo info_;
     vk::raii::PhysicalDevice physical_;
     vk::raii::Device device_;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "host/base/error.h"
-
 namespace duolux {
 
 namespace {
@@ -89,8 +87,7 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
                                                       &info);
         pipeline_ = vk::raii::Pipeline(handle, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
     } catch (const vk::SystemError& e) {
-        throw MachineError(fmt::format("creating the pipeline of kernel '{}' failed on {} ({}): {}", name,
-                                       device.info().name, device.info().driver, e.what()));
+        throw failureOn(device.info(), fmt::format("creating the pipeline of kernel '{}'", name), e);
     }
 }
 

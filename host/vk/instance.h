@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "host/base/error.h"
+
+namespace duolux {
+
+enum class Validation : std::uint8_t {
+    kOff,
+    kOn  ///< core and synchronization validation; throws MachineError if the layer is not installed
+};
+
+/// No Vulkan driver could be loaded, or none has a device.
+class NoDriverError : public MachineError {
+  public:
+    using MachineError::MachineError;
+};
+
+/// The Vulkan loader with all drivers that it can load.
+class Instance {
+  public:
+    /// Throws NoDriverError.
+    explicit Instance(Validation validation);
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    /// At least one. Throws NoDriverError.
+    std::vector<vk::raii::PhysicalDevice> devices() const;
+
+    /// Warnings and errors from the validation layer since creation (empty unless Validation::kOn).
+    std::vector<std::string> validationMessages() const;
+
+  private:
+    struct Log;
+    std::unique_ptr<Log> log_;
+    vk::raii::Context context_;
+    vk::raii::Instance instance_;
+    vk::raii::DebugUtilsMessengerEXT messenger_;
+};
+
+}  // namespace duolux

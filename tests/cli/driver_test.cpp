@@ -1,0 +1,98 @@
+// What the program says where no Vulkan driver can be loaded, and how many threads it starts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_duolux.h"
+#include "tests/support/sanitizer.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// `duolux devices` where the loader looks for drivers only in this manifest.
+ProgramResult devicesWith(const TemporaryFolder& folder, const std::string& manifest) {
+    return runProgram(DUOLUX_EXECUTABLE, folder.path(), {"devices"}, std::nullopt, std::chrono::seconds(60),
+                      {"VK_DRIVER_FILES=" + manifest, "VK_ICD_FILENAMES=" + manifest});
+}
+
+void writeText(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream(file) << text;
+}
+
+TEST(NoDriver, NamesTheManifestOrTheLibraryThatIsMissing) {
+    const TemporaryFolder folder;
+    writeText(folder / "broken.json", "{");
+    writeText(folder / "library.json",
+              R"({"file_format_version": "1.0.0",
+                  "ICD": {"library_path": "/no/such/library.so", "api_version": "1.2.0"}})");
+    for (const auto& [manifest, culprit] :
+         std::vector<std::pair<std::string, std::string>>{{"missing.json", "missing.json"},
+                                                          {"broken.json", "broken.json"},
+                                                          {"library.json", "/no/such/library.so: cannot"}}) {
+        const ProgramResult result = devicesWith(folder, manifest);
+        EXPECT_EQ(result.status, 1) << manifest;
+        EXPECT_THAT(result.err,
+                    AllOf(HasSubstr("duolux: no Vulkan driver can be loaded ("), HasSubstr(culprit),
+                          HasSubstr("; VK_DRIVER_FILES is set to '" + manifest + "'")));
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    }
+}
+
+TEST(NoDriver, SaysWhatToInstallWhereThereIsNone) {
+    const TemporaryFolder folder;
+    const ProgramResult result = devicesWith(folder, "/dev/null");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("duolux: no Vulkan driver found; install one (Debian: "
+                                      "mesa-vulkan-drivers, "));
+}
+
+TEST(NoDriver, TooLittleAddressSpaceIsCalledSo) {
+    if (kAddressSanitizer) GTEST_SKIP();
+    const TemporaryFolder folder;
+    const ProgramResult result =
+        runProgram("/bin/sh", folder.path(), {"-c", "ulimit -v 120000 && " DUOLUX_EXECUTABLE " devices"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, AllOf(HasSubstr("; this process may use only 117 MiB of address space"),
+                                  HasSubstr("'ulimit -v'"), Not(HasSubstr("install"))));
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+}
+
+TEST(Threads, AnyNumberGivesTheSameBits) {
+    const TemporaryFolder folder;
+    std::string picture;
+    for (const char* threads : {"0", "1", "2", "5"}) {
+        const ProgramResult result =
+            runDuolux(folder.path(), {"render", DUOLUX_ASSETS "/cornell/cornell.json", "--device", "cpu",
+                                      "--size", "16x16", "--spp", "2", "--threads", threads, "-o", "a.pfm"});
+        ASSERT_EQ(result.status, 0) << result.err;
+        if (picture.empty()) picture = contentsOf(folder / "a.pfm");
+        EXPECT_EQ(contentsOf(folder / "a.pfm"), picture) << threads;
+    }
+}
+
+TEST(Threads, AreAsManyAsAskedFor) {
+    const TemporaryFolder folder;
+    const ProgramResult result =
+        runDuolux(folder.path(), {"bench", "two-spheres-1000", "--only", "/build", "--repeat", "1",
+                                  "--device", "cpu", "--quiet", "--threads", "3", "--json", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(nlohmann::json::parse(result.out).dump(), HasSubstr("3 x "));
+}
+
+TEST(Threads, RefusesWhatIsNoNumber) {
+    const TemporaryFolder folder;
+    for (const char* threads : {"-1", "two", "1025"}) {
+        const ProgramResult result = runDuolux(folder.path(), {"info", "a.obj", "--threads", threads});
+        EXPECT_EQ(result.status, 2);
+        EXPECT_THAT(result.err, HasSubstr("--threads: expected a whole number from 0 to 1024"));
+    }
+}
+
+}  // namespace
+}  // namespace duolux::test
