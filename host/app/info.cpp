@@ -12,6 +12,8 @@
 
 #include "host/app/commands.h"
 #include "host/app/machine_options.h"
+#include "host/base/printable.h"
+#include "host/base/utf8.h"
 #include "host/scene/energy.h"
 #include "host/scene/load.h"
 
@@ -52,7 +54,7 @@ void printTable(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows) {
         for (std::size_t i = 0; i < row.size(); ++i)
-            widths[i] = std::max(widths[i], row[i].size());
+            widths[i] = std::max(widths[i], decodeUtf8(row[i]).size());
     }
     for (const auto& row : rows) {
         std::string line = " ";
@@ -117,7 +119,7 @@ void printMaterials(const Scene& scene) {
         {"material", "triangles", "diffuse", "sides", "emission", "reflectance"}};
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        rows.push_back({material.name, withSeparators(triangles[i]), colour(material.diffuse),
+        rows.push_back({shortened(material.name), withSeparators(triangles[i]), colour(material.diffuse),
                         material.sides == Sides::kBoth ? "both" : "front",
                         describeEmission(material.emission),
                         material.reflectance ? describeReflectance(*material.reflectance) : "the scene's"});
@@ -137,7 +139,7 @@ void printEnergy(const Scene& scene) {
         for (int i = 0; i < 3; ++i) {
             if (energy.factor[i] <= largest) continue;
             largest = energy.factor[i];
-            where = fmt::format("\"{}\" in {}", material.name, kChannels[static_cast<std::size_t>(i)]);
+            where = fmt::format("{} in {}", inQuotes(material.name), kChannels[static_cast<std::size_t>(i)]);
         }
         mayGrow = mayGrow || energy.mayGrow();
     }
@@ -153,7 +155,7 @@ void printEnergy(const Scene& scene) {
 }
 
 void printInfo(const Scene& scene) {
-    printField("scene", scene.source.string());
+    printField("scene", printable(scene.source.string()));
     printField("hash", scene.hash);
     printGeometry(scene);
     printView(scene);

@@ -2,20 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+
+#include "host/base/printable.h"
+
 namespace duolux {
 
 namespace {
 
 std::string inputErrorLine(std::string_view file, std::string_view place, std::string_view problem,
                            std::string_view remedy) {
-    std::string line(file);
-    if (!place.empty()) line += fmt::format(": {}", place);
-    line += fmt::format(": {}", problem);
-    if (!remedy.empty()) line += fmt::format("; {}", remedy);
-    // One line, whatever the input file put into a name.
-    for (char& c : line) {
-        if (c == '\n' || c == '\r') c = ' ';
-    }
+    // One short line, whatever the input file put into a name.
+    constexpr std::size_t kLongest = 300;
+    std::string line = printable(file);
+    if (!place.empty()) line += fmt::format(": {}", shortened(place, kLongest));
+    line += fmt::format(": {}", shortened(problem, kLongest));
+    if (!remedy.empty()) line += fmt::format("; {}", shortened(remedy, 2 * kLongest));
     return line;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "host/film/font.h"
-#include "host/film/utf8.h"
+#include "host/base/utf8.h"
 
 #define STB_TRUETYPE_IMPLEMENTATION
 #define STBTT_STATIC

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/printable.h"
 #include "host/scene/nearest_name.h"
-#include "host/scene/source_text.h"
 
 namespace duolux {
 
@@ -33,7 +33,7 @@ std::string JsonNode::describe() const {
 }
 
 JsonNode JsonNode::member(std::string_view key, const json& value) const {
-    return {value, *file_, path_ + (path_.empty() ? "" : ".") + printable(key)};
+    return {value, *file_, path_ + (path_.empty() ? "" : ".") + shortened(key)};
 }
 
 void JsonNode::expectObject() const {

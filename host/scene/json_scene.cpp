@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/printable.h"
 #include "host/scene/compose.h"
 #include "host/scene/frame_camera.h"
 #include "host/scene/json_node.h"
@@ -137,10 +138,13 @@ class MeshCache {
 fs::path readMeshPath(const JsonNode& node) {
     const char* const remedy = "expected the path of an .obj file, relative to the scene file";
     const fs::path path = node.text(remedy);
+    if (path.native().find('\0') != std::string::npos) node.failValue(remedy);
     if (path.extension() != ".obj" && path.extension() != ".OBJ") node.failValue(remedy);
+    constexpr std::size_t kLongest = 200;
     fs::path file = node.file().parent_path() / path;
     std::error_code ec;
-    if (!fs::is_regular_file(file, ec)) node.fail(fmt::format("there is no file {}", file.string()), remedy);
+    if (!fs::is_regular_file(file, ec))
+        node.fail(fmt::format("there is no file {}", shortened(file.string(), kLongest)), remedy);
     return file;
 }
 

@@ -11,7 +11,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/scene/source_text.h"
+#include "host/base/printable.h"
 
 namespace duolux {
 
@@ -71,7 +71,7 @@ class KeyWatch {
                 path += fmt::format("[{}]", level.elements - 1);
             } else {
                 if (!path.empty()) path += '.';
-                path += printable(level.key);
+                path += shortened(level.key);
             }
         }
         return path;
@@ -95,9 +95,8 @@ std::string placeOf(const std::string& text, std::size_t offset) {
 std::string explanation(const std::string& message) {
     const std::size_t column = message.find("column ");
     const std::size_t colon = message.find(": ", column == std::string::npos ? 0 : column);
-    const std::string rest = printable(colon == std::string::npos ? message : message.substr(colon + 2));
     constexpr std::size_t kLongest = 160;
-    return rest.size() <= kLongest ? rest : rest.substr(0, kLongest) + "...";
+    return shortened(colon == std::string::npos ? message : message.substr(colon + 2), kLongest);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/printable.h"
 #include "host/scene/compose.h"
 #include "host/scene/default_light.h"
 #include "host/scene/frame_camera.h"
@@ -56,6 +57,8 @@ Scene loadScene(const std::filesystem::path& path) {
     } else {
         throw InputError(path.string(), "", "is not a scene by its extension", "expected .obj or .json");
     }
+    for (std::string& warning : scene.warnings)
+        warning = printable(warning);
     scene.hash = hashScene(scene);
     return scene;
 }

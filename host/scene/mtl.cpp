@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/printable.h"
 #include "host/scene/mesh.h"
 #include "host/scene/source_text.h"
 

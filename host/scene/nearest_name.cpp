@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/scene/source_text.h"
+#include "host/base/printable.h"
 
 namespace duolux {
 

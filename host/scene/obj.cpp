@@ -12,6 +12,7 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/base/printable.h"
 #include "host/scene/mesh.h"
 #include "host/scene/mtl.h"
 #include "host/scene/obj_parse.h"

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "host/base/printable.h"
+
 namespace duolux {
 
 namespace {

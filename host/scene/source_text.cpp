@@ -67,19 +67,6 @@ void SourceText::fail(const TextProblem& problem) const {
     throw InputError(file(), fmt::format("line {}", lineOf(problem.offset)), problem.problem, problem.remedy);
 }
 
-std::string printable(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    }
-    return result;
-}
-
-std::string inQuotes(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
-    return fmt::format("\"{}{}\"", printable(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
-}
-
 std::string_view trimmed(std::string_view text) {
     while (!text.empty() && isBlank(text.front()))
         text.remove_prefix(1);

@@ -42,12 +42,6 @@ class SourceText {
     std::vector<std::size_t> joins_;  ///< offsets of the line ends that continuation replaced, ascending
 };
 
-/// The text without control characters, which could upset a terminal.
-std::string printable(std::string_view text);
-
-/// The text in double quotes for a message: shortened and printable.
-std::string inQuotes(std::string_view text);
-
 /// Without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 

@@ -293,7 +293,20 @@ TEST_F(JsonTest, ErrorsInMeshesNameTheMesh) {
 
 TEST_F(JsonTest, NamesWithControlCharactersStayOneLine) {
     const std::string error = errorWith(R"("a\nb\u001b[31m": 1)");
-    EXPECT_THAT(error, StartsWith("scene.json: a?b?[31m: unknown key"));
+    EXPECT_THAT(error, StartsWith("scene.json: a\\x0ab\\x1b[31m: unknown key"));
+}
+
+TEST_F(JsonTest, LongKeysAndValuesAreShortened) {
+    EXPECT_LT(errorWith("\"" + std::string(1'000'000, 'k') + "\": 1").size(), 300u);
+    EXPECT_LT(errorOfJson(R"({"duolux": 1, "objects": [{"mesh": ")" + std::string(100'000, 'm') + ".obj\"}]}")
+                  .size(),
+              500u);
+}
+
+TEST_F(JsonTest, PathsWithAZeroByteAreRefused) {
+    write("secret", kTriangleObj);
+    EXPECT_THAT(errorOfJson(R"({"duolux": 1, "objects": [{"mesh": "secret\u0000.obj"}]})"),
+                HasSubstr("objects[0].mesh: is \"secret\\x00.obj\"; expected the path"));
 }
 
 TEST_F(JsonTest, DeepNestingIsAnErrorLikeAnyOther) {

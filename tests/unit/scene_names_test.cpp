@@ -45,11 +45,5 @@ TEST(SourceText, SkipsDecimalNumbersOnly) {
     EXPECT_EQ(skipped("nan"), -1);
 }
 
-TEST(SourceText, QuotesShortAndPrintable) {
-    EXPECT_EQ(inQuotes("a b"), "\"a b\"");
-    EXPECT_EQ(inQuotes("a\x1b[0m\n"), "\"a?[0m?\"");
-    EXPECT_EQ(inQuotes(std::string(41, 'x')), "\"" + std::string(40, 'x') + "...\"");
-}
-
 }  // namespace
 }  // namespace duolux

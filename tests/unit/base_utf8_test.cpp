@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/film/utf8.h"
+#include "host/base/utf8.h"
 
 namespace duolux {
 namespace {

@@ -1,0 +1,48 @@
+#include "host/base/printable.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <limits>
+
+#include "host/base/utf8.h"
+
+namespace duolux {
+
+namespace {
+
+/// C0 and C1 controls, line and paragraph separators, and what turns the direction of the text around it.
+bool isControl(char32_t c) {
+    return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x200e || c == 0x200f ||
+           (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;
+}
+
+}  // namespace
+
+std::string shortened(std::string_view text, std::size_t most) {
+    std::string result;
+    for (std::size_t count = 0; !text.empty(); ++count) {
+        if (count == most) return result + "...";
+        const auto first = firstUtf8(text);
+        const std::size_t bytes = first ? first->bytes : 1;
+        if (first && !isControl(first->value)) {
+            result += text.substr(0, bytes);
+        } else {
+            for (const char byte : text.substr(0, bytes)) {
+                fmt::format_to(std::back_inserter(result), "\\x{:02x}", static_cast<unsigned char>(byte));
+            }
+        }
+        text.remove_prefix(bytes);
+    }
+    return result;
+}
+
+std::string printable(std::string_view text) {
+    return shortened(text, std::numeric_limits<std::size_t>::max());
+}
+
+std::string inQuotes(std::string_view text) {
+    return '"' + shortened(text) + '"';
+}
+
+}  // namespace duolux

@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host/base/error.h"
+#include "host/base/printable.h"
+
+namespace duolux {
+namespace {
+
+TEST(Printable, KeepsTextOfAnyLanguage) {
+    EXPECT_EQ(printable(""), "");
+    EXPECT_EQ(printable("C:\\models\\a b"), "C:\\models\\a b");
+    EXPECT_EQ(printable("B\xC3\xB6"
+                        "den \xE7\x9B\x92 \xF0\x9F\x98\x80"),
+              "B\xC3\xB6"
+              "den \xE7\x9B\x92 \xF0\x9F\x98\x80");
+}
+
+TEST(Printable, ShowsControlCharactersAndBadBytes) {
+    EXPECT_EQ(printable("\x1b[31mX\x07\x7f\n\t"), "\\x1b[31mX\\x07\\x7f\\x0a\\x09");
+    EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
+    EXPECT_EQ(printable("\xC2\x9B"
+                        "31m"),
+              "\\xc2\\x9b31m")
+        << "the C1 form of an escape sequence";
+    EXPECT_EQ(printable("a\xE2\x80\xAEz"), "a\\xe2\\x80\\xaez") << "right-to-left override";
+    EXPECT_EQ(printable("\xFF\xC3"), "\\xff\\xc3");
+    EXPECT_EQ(printable(printable("\x1b\xFF")), printable("\x1b\xFF"));
+}
+
+TEST(Printable, QuotesAndShortensByCharacters) {
+    EXPECT_EQ(inQuotes("a b"), "\"a b\"");
+    EXPECT_EQ(inQuotes("a\x1b[0m\n"), "\"a\\x1b[0m\\x0a\"");
+    EXPECT_EQ(inQuotes(std::string(40, 'x')), "\"" + std::string(40, 'x') + "\"");
+    EXPECT_EQ(inQuotes(std::string(41, 'x')), "\"" + std::string(40, 'x') + "...\"");
+    EXPECT_EQ(shortened("\xC3\xA9\xC3\xA9\xC3\xA9", 2), "\xC3\xA9\xC3\xA9...");
+}
+
+TEST(Printable, InputErrorsStayShortAndPrintable) {
+    const std::string line =
+        InputError("a\x1b.obj", std::string(1'000'000, 'k'), std::string(1'000'000, 'p'), "r\n").what();
+    EXPECT_LT(line.size(), 1000u);
+    EXPECT_TRUE(line.starts_with("a\\x1b.obj: kkk")) << line;
+    EXPECT_TRUE(line.ends_with("; r\\x0a")) << line;
+}
+
+}  // namespace
+}  // namespace duolux
