@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "host/base/error.h"
+#include <new>
+
+#include "host/app/options.h"
+#include "host/base/memory.h"
 #include "host/base/version.h"
 
 namespace duolux {
@@ -24,22 +27,37 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
     return out;
 }
 
-void WriteAll::operator()(const std::function<void()>& step) {
+void WriteAll::operator()(const std::string& file, const std::function<void()>& step) {
+    const auto fail = [&](const Error& error) {
+        if (failure_) {
+            warn(error.what());
+        } else {
+            failure_ = error;
+        }
+    };
     try {
         step();
-    } catch (const Error&) {
-        if (!failure_) failure_ = std::current_exception();
+    } catch (const Error& e) {
+        fail(e);
+    } catch (const std::bad_alloc&) {
+        fail(outOfMemory(fmt::format("{}: cannot write", file), "expected a smaller --size, or more memory"));
+    } catch (const std::exception& e) {
+        fail(MachineError(fmt::format("{}: cannot write: {}", file, e.what())));
     }
 }
 
+void WriteAll::warnOfFirst() const {
+    if (failure_) warn(failure_->what());
+}
+
 void WriteAll::rethrow() const {
-    if (failure_) std::rethrow_exception(failure_);
+    if (failure_) throw *failure_;
 }
 
 void writeImages(WriteAll& write, const std::vector<std::string>& files, const RadianceImage& image,
                  const ImageOptions& options) {
     for (const std::string& file : files)
-        write([&] { writeImage(file, image, options); });
+        write(file, [&] { writeImage(file, image, options); });
 }
 
 }  // namespace duolux

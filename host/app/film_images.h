@@ -1,10 +1,11 @@
 #pragma once
 
-#include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/base/error.h"
 #include "host/film/image.h"
 #include "host/render/checkpoint.h"
 
@@ -14,14 +15,18 @@ namespace duolux {
 /// rendered.
 ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float exposure);
 
-/// Carries out every step though some fail, and throws for the first that did in the end.
+/// Writes every file though some cannot be written, for whatever reason: warns of those, but for the first,
+/// which rethrow() tells in the end.
 class WriteAll {
   public:
-    void operator()(const std::function<void()>& step);
+    /// `step` writes `file`.
+    void operator()(const std::string& file, const std::function<void()>& step);
+    bool failed() const { return failure_.has_value(); }
+    void warnOfFirst() const;  ///< in place of rethrow(), where something else is to be thrown
     void rethrow() const;
 
   private:
-    std::exception_ptr failure_;
+    std::optional<Error> failure_;
 };
 
 /// A step for each file.

@@ -11,6 +11,7 @@
 #include "host/app/commands.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
+#include "host/base/memory.h"
 #include "host/base/version.h"
 #include "host/scene/nearest_name.h"
 
@@ -86,7 +87,8 @@ int main(int argc, char** argv) {
     } catch (const duolux::Error& e) {
         return report(e.what(), e.status());
     } catch (const std::bad_alloc&) {
-        return report("out of memory", duolux::ExitStatus::kMachineFailed);
+        return report(("out of memory" + duolux::addressSpaceHint()).c_str(),
+                      duolux::ExitStatus::kMachineFailed);
     } catch (const std::exception& e) {
         return report(e.what(), duolux::ExitStatus::kMachineFailed);
     }

@@ -109,11 +109,16 @@ std::uint64_t samplesInAll(const Scene& scene, const RenderControl& control) {
 
 /// What the user should know of a finished render.
 std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl& control,
-                                        const RenderOutput& output) {
+                                        const RenderOutput& output, bool failed) {
     const RenderStatistics& statistics = output.statistics;
     std::vector<std::string> warnings;
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
-    if (statistics.stopped && !interrupted()) {
+    if (statistics.gaps) {
+        warnings.emplace_back(
+            "some pixels have light of samples that others do not: no checkpoint is written, an earlier one "
+            "stays");
+    }
+    if (statistics.stopped && !failed && !interrupted()) {
         const auto taken = static_cast<double>(output.film.totalSamples() + output.film.lightPaths());
         warnings.push_back(fmt::format("stopped at the time limit after {:.4g} of {} {} per pixel",
                                        taken / static_cast<double>(pixels),
@@ -194,6 +199,17 @@ void prepareResume(const RenderOptions& options, const Checkpoint& resumed, cons
     control.resume = &resumed.state;
 }
 
+/// What there is, though the device may have failed on the way.
+RenderOutput renderWhatCanBe(Device& device, const Scene& scene, const RenderControl& control,
+                             std::optional<RenderFailure>& failure) {
+    try {
+        return render(device, scene, control);
+    } catch (const RenderFailure& e) {
+        failure = e;
+        return std::move(e.output());
+    }
+}
+
 void runRender(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     std::vector<std::string> outputs = options.outputs;
@@ -245,13 +261,15 @@ void runRender(const RenderOptions& options) {
             }
         };
     }
-    const RenderOutput output = render(device, scene, control);
+    std::optional<RenderFailure> failure;
+    const RenderOutput output = renderWhatCanBe(device, scene, control, failure);
     progress.finish();
 
-    for (const std::string& warning : resultWarnings(scene, control, output)) {
+    for (const std::string& warning : resultWarnings(scene, control, output, failure.has_value())) {
         warn(warning);
         scene.warnings.push_back(warning);
     }
+    if (failure) scene.warnings.emplace_back(failure->what());
     const Clock::time_point writeStart = Clock::now();
     const auto finish = [&] {
         seconds.write = secondsSince(writeStart);
@@ -260,23 +278,26 @@ void runRender(const RenderOptions& options) {
         writeReport(options.report,
                     renderReport(scene, control.firstSample, device.info(), output.statistics, seconds));
     };
-    // All that can be written is; then the first failure is told.
     WriteAll write;
-    if (!options.checkpoint.empty()) {
-        write([&] {
+    if (!options.checkpoint.empty() && !output.statistics.gaps) {
+        write(options.checkpoint, [&] {
             writeCheckpoint(options.checkpoint, origin(output.statistics), output.film, output.statistics);
         });
     }
     writeImages(write, outputs, output.film.resolve(),
                 filmImageOptions(origin(output.statistics), output.film, options.exposure));
-    write(finish);
+    write(options.report, finish);
+    const std::string there =
+        fmt::format("{} of {} {}", output.film.totalSamples() + output.film.lightPaths(),
+                    samplesInAll(scene, control), samplesName(scene));
+    if (failure) {
+        write.warnOfFirst();
+        throw MachineError(fmt::format("{}; {} {}", failure->what(),
+                                       write.failed() ? "there are" : "wrote what there is,", there));
+    }
     write.rethrow();
-
     if (output.statistics.stopped && interrupted()) {
-        throw Error(ExitStatus::kInterrupted,
-                    fmt::format("interrupted: wrote what there is, {} of {} {}",
-                                output.film.totalSamples() + output.film.lightPaths(),
-                                samplesInAll(scene, control), samplesName(scene)));
+        throw Error(ExitStatus::kInterrupted, fmt::format("interrupted: wrote what there is, {}", there));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <limits>
+#include <system_error>
 
 namespace duolux {
 
@@ -17,6 +18,19 @@ std::string addressSpaceHint() {
     const std::uint64_t limit = addressSpaceLimit();
     if (limit == std::numeric_limits<std::uint64_t>::max()) return "";
     return fmt::format("; this process may use only {} MiB of address space, see 'ulimit -v'", limit >> 20);
+}
+
+MachineError outOfMemory(std::string_view what, std::string_view remedy) {
+    return MachineError(fmt::format("{}: out of memory{}; {}", what, addressSpaceHint(), remedy));
+}
+
+MachineError outOfMemoryReading(const std::filesystem::path& file) {
+    std::error_code unknown;
+    const auto bytes = std::filesystem::file_size(file, unknown);
+    const std::string size =
+        unknown ? "" : fmt::format(" ({:.1f} MiB)", static_cast<double>(bytes) / (1 << 20));
+    return outOfMemory(fmt::format("{}: cannot read it{}", file.string(), size),
+                       "expected a smaller file, or more memory");
 }
 
 }  // namespace duolux

@@ -189,8 +189,11 @@ void SceneSuite::State::addFilms() {
     if (wanted("film/light")) {
         const auto shooting =
             std::make_shared<LightKernel>(device, deviceScene, scene, 1, LightKernel::Limits{});
-        addFilm("light", pixels->size(), sizeof(Film::PixelSum),
-                [shooting, film] { shooting->takeFilm(*film); });
+        addFilm("light", pixels->size(), sizeof(Film::PixelSum), [shooting, film] {
+            bool partly = false;
+            shooting->takeFilm(*film, partly);
+            shooting->clearFilm();
+        });
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/memory.h"
 #include "host/film/codec.h"
 
 namespace duolux {
@@ -85,14 +86,13 @@ RadianceImage readImage(const std::filesystem::path& path) {
     const Format* format = formatOf(path);
     if (format == nullptr)
         throw InputError(path.string(), "", "unknown image format", "expected .exr, .png or .pfm");
-    return format->decode(readFile(path), path.string());
+    return withMemoryToRead(path, [&] { return format->decode(readFile(path), path.string()); });
 }
 
 RadianceImage readDisplayedImage(const std::filesystem::path& path) {
     const Format* format = formatOf(path);
-    if (format != nullptr && format->decode == decodeExr)
-        return decodeDisplayedExr(readFile(path), path.string());
-    return readImage(path);
+    if (format == nullptr || format->decode != decodeExr) return readImage(path);
+    return withMemoryToRead(path, [&] { return decodeDisplayedExr(readFile(path), path.string()); });
 }
 
 }  // namespace duolux

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/memory.h"
 #include "host/base/version.h"
 
 namespace duolux {
@@ -153,7 +154,9 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
     writeFile(path, bytes);
 }
 
-Checkpoint readCheckpoint(const std::filesystem::path& path) {
+namespace {
+
+Checkpoint read(const std::filesystem::path& path) {
     const std::string bytes = readFile(path);
     const auto fail = [&](const char* problem) {
         throw InputError(path.string(), "", problem, "expected a file that --checkpoint has written");
@@ -173,6 +176,12 @@ Checkpoint readCheckpoint(const std::filesystem::path& path) {
         fail("is damaged: its header cannot be read");
         throw;
     }
+}
+
+}  // namespace
+
+Checkpoint readCheckpoint(const std::filesystem::path& path) {
+    return withMemoryToRead(path, [&] { return read(path); });
 }
 
 std::uint32_t samplesTaken(const Film& film) {

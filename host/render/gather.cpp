@@ -76,6 +76,7 @@ class Gatherer {
             }
             if (submitted == received) break;
             receive(kernel, received++ % 2, schedule);
+            statistics.gaps = !schedule.settled();
             context_.reportProgress();
             if (schedule.settled()) context_.offerCheckpoint();
         }

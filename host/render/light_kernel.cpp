@@ -132,7 +132,7 @@ LightKernel::Results LightKernel::wait(unsigned place) {
     return {range, teamPaths / teams_.lanes(), teams_.complete(place), {results, lanes}, seconds};
 }
 
-void LightKernel::takeFilm(Film& film) {
+void LightKernel::takeFilm(Film& film, bool& partly) {
     std::uint32_t bandBegin = 0;
     for (const Buffer& band : film_) {
         const std::uint32_t bandEnd = std::min(bandBegin + bandPixels_, pixels_);
@@ -151,10 +151,10 @@ void LightKernel::takeFilm(Film& film) {
             });
             filmRead_.invalidate();
             film.addLight(first, {reinterpret_cast<const Film::PixelSum*>(filmRead_.mapped()), count});
+            partly = first + count < pixels_;
         }
         bandBegin = bandEnd;
     }
-    clearFilm();
 }
 
 void LightKernel::clearFilm() {

@@ -55,9 +55,9 @@ class LightKernel {
     /// Waits for the dispatch in a place. What is returned is valid until the next submit to it.
     Results wait(unsigned place);
 
-    /// Adds the sums on the device to a film of the scene's size and quantum, and begins again at zero.
-    /// Nothing may be in flight.
-    void takeFilm(Film& film);
+    /// Adds the sums on the device to a film of the scene's size and quantum. Nothing may be in flight.
+    /// `partly` is true while some pixels have been added and others have not.
+    void takeFilm(Film& film, bool& partly);
 
     /// Begins again at zero, whatever has been added.
     void clearFilm();

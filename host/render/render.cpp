@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <new>
 
 #include "host/base/error.h"
+#include "host/base/memory.h"
 #include "host/render/context.h"
 #include "host/render/schedule.h"
 
@@ -91,14 +93,52 @@ bool RenderStatistics::cutOffByBounces() const {
            lastBounceRadiance < 0.01 * previousBounceRadiance;
 }
 
+namespace {
+
+DeviceScene upload(const Device& device, const Scene& scene, const TuningChoice& tuning) {
+    try {
+        return uploadScene(device, scene, tuning);
+    } catch (const std::bad_alloc&) {
+        throw outOfMemory(fmt::format("{}: cannot build trees over {} triangles", scene.source.string(),
+                                      scene.geometry.triangles.size()),
+                          "expected fewer triangles, or more memory");
+    }
+}
+
+Film makeFilm(const RenderSettings& settings, float quantum) {
+    try {
+        return Film(settings.width, settings.height, quantum);
+    } catch (const std::bad_alloc&) {
+        const std::uint64_t bytes = std::uint64_t{settings.width} * settings.height *
+                                    (sizeof(Film::PixelSum) + sizeof(std::uint32_t));
+        throw outOfMemory(
+            fmt::format("a film of {}x{} pixels takes {} MiB", settings.width, settings.height, bytes >> 20),
+            "expected a smaller size, or more memory");
+    }
+}
+
+void trace(RenderContext& context) {
+    if (context.scene.render.integrator == Integrator::kLight) {
+        shoot(context);
+    } else {
+        gather(context);
+    }
+}
+
+/// The samples that there are, and why there are no more; throws `line` alone if there are none.
+[[noreturn]] void failWithFilm(RenderContext& context, const std::string& line) {
+    if (context.film.totalSamples() + context.film.lightPaths() == 0) throw MachineError(line);
+    context.statistics.stopped = true;
+    context.summarise();
+    throw RenderFailure(line, {std::move(context.film), context.statistics});
+}
+
+}  // namespace
+
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {
-    DeviceScene deviceScene = uploadScene(device, scene, control.tuning);
+    DeviceScene deviceScene = upload(device, scene, control.tuning);
     const float quantum = deviceScene.quantum;
-    RenderContext context{device,
-                          scene,
-                          control,
-                          std::move(deviceScene),
-                          Film(scene.render.width, scene.render.height, quantum),
+    RenderContext context{device, scene, control, std::move(deviceScene), makeFilm(scene.render, quantum),
                           {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;
@@ -116,10 +156,14 @@ RenderOutput render(Device& device, const Scene& scene, const RenderControl& con
     statistics.uploadSeconds = context.deviceScene.uploadSeconds;
     statistics.effectiveBounces = context.deviceScene.traits.effectiveBounces;
     statistics.limitedByBounces = context.deviceScene.traits.limitedByBounces;
-    if (scene.render.integrator == Integrator::kLight) {
-        shoot(context);
-    } else {
-        gather(context);
+    try {
+        trace(context);
+    } catch (const MachineError& e) {
+        failWithFilm(context, e.what());
+    } catch (const vk::SystemError& e) {
+        failWithFilm(context, failureOn(device.info(), "rendering", e).what());
+    } catch (const std::bad_alloc&) {
+        failWithFilm(context, outOfMemory("rendering", "expected a smaller size, or more memory").what());
     }
     context.summarise();
     return {std::move(context.film), statistics};

@@ -3,9 +3,12 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "host/base/error.h"
 #include "host/film/film.h"
 #include "host/gpu/tuning.h"
 #include "host/scene/scene.h"
@@ -85,6 +88,9 @@ struct RenderStatistics {
         0;  ///< scattering events that can contribute: at most the scene's `bounces`
     bool directLightInClosedForm = false;
     bool stopped = false;  ///< ended before all samples were taken
+    /// Some pixels lack samples, or light paths, that come before others which they have: the film shows what
+    /// there is, but no render can go on from it.
+    bool gaps = false;
 
     bool limitedByBounces = false;  ///< more scattering events than `bounces` could contribute
 
@@ -97,10 +103,21 @@ struct RenderOutput {
     RenderStatistics statistics;
 };
 
+/// The device or the machine failed when there were samples already, which are not lost.
+class RenderFailure : public MachineError {
+  public:
+    RenderFailure(const std::string& line, RenderOutput output)
+        : MachineError(line), output_(std::make_shared<RenderOutput>(std::move(output))) {}
+    RenderOutput& output() const { return *output_; }  ///< shared by copies
+
+  private:
+    std::shared_ptr<RenderOutput> output_;
+};
+
 /// Renders the scene with its integrator. The film holds what was resumed, too. Throws UsageError if the
 /// direct light is asked for in closed form where there is none, or the device lacks what tuning asks for.
 /// Same scene, settings, seed and device give the same bits. Throws MachineError naming the stage and the
-/// driver if the device fails.
+/// driver if the device fails, a RenderFailure once there are samples.
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
 
 }  // namespace duolux

@@ -136,7 +136,7 @@ class Shooter {
 
     void takeOver(LightKernel& kernel, const Batch& batch) {
         RenderStatistics& statistics = context_.statistics;
-        kernel.takeFilm(context_.film);
+        kernel.takeFilm(context_.film, statistics.gaps);
         context_.film.countLightPaths(batch.paths);
         statistics.samples += batch.paths;
         statistics.nonFiniteSamples += batch.nonFinite;
@@ -147,6 +147,7 @@ class Shooter {
         const double unit = static_cast<double>(context_.deviceScene.quantum * shared::kStatisticsQuanta);
         context_.lastBounce += static_cast<double>(batch.lastBounce) * unit;
         context_.previousBounce += static_cast<double>(batch.previousBounce) * unit;
+        kernel.clearFilm();
     }
 
     RenderContext& context_;

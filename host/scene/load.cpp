@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/memory.h"
 #include "host/base/printable.h"
 #include "host/scene/compose.h"
 #include "host/scene/default_light.h"
@@ -40,9 +41,7 @@ void addMissingLight(Scene& scene, bool explicitLights) {
     }
 }
 
-}  // namespace
-
-Scene loadScene(const std::filesystem::path& path) {
+Scene load(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -61,6 +60,12 @@ Scene loadScene(const std::filesystem::path& path) {
         warning = printable(warning);
     scene.hash = hashScene(scene);
     return scene;
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& path) {
+    return withMemoryToRead(path, [&] { return load(path); });
 }
 
 }  // namespace duolux
