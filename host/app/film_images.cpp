@@ -54,10 +54,10 @@ void WriteAll::rethrow() const {
     if (failure_) throw *failure_;
 }
 
-void writeImages(WriteAll& write, const std::vector<std::string>& files, const RadianceImage& image,
+void writeImages(WriteAll& write, const std::vector<std::string>& files, const ImageRows& rows,
                  const ImageOptions& options) {
     for (const std::string& file : files)
-        write(file, [&] { writeImage(file, image, options); });
+        write(file, [&] { writeImage(file, rows, options); });
 }
 
 }  // namespace duolux

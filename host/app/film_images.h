@@ -30,7 +30,7 @@ class WriteAll {
 };
 
 /// A step for each file.
-void writeImages(WriteAll& write, const std::vector<std::string>& files, const RadianceImage& image,
+void writeImages(WriteAll& write, const std::vector<std::string>& files, const ImageRows& rows,
                  const ImageOptions& options);
 
 /// What to tell of a film that overflowed.

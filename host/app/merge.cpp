@@ -72,7 +72,7 @@ void runMerge(const MergeOptions& options) {
         warn(kFilmOverflowed);
     }
     WriteAll write;
-    writeImages(write, options.outputs, sum->state.film.resolve(),
+    writeImages(write, options.outputs, sum->state.film.rows(),
                 filmImageOptions(sum->origin, sum->state.film, options.exposure));
     write.rethrow();
 }

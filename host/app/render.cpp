@@ -284,7 +284,7 @@ void runRender(const RenderOptions& options) {
             writeCheckpoint(options.checkpoint, origin(output.statistics), output.film, output.statistics);
         });
     }
-    writeImages(write, outputs, output.film.resolve(),
+    writeImages(write, outputs, output.film.rows(),
                 filmImageOptions(origin(output.statistics), output.film, options.exposure));
     write(options.report, finish);
     const std::string there =

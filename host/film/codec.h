@@ -1,19 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "host/base/file.h"
 #include "host/film/image.h"
 
 namespace duolux {
 
-// The image formats as functions between images and the bytes of a file. Encoders throw std::exception on
-// failure; decoders throw InputError naming `file`, whatever the bytes.
+// The image formats as functions between images and the bytes of a file. Encoders hold a few rows at a time
+// and throw std::exception on failure; decoders throw InputError naming `file`, whatever the bytes.
 
-std::string encodeExr(const RadianceImage& image, const ImageOptions& options);
-std::string encodePng(const RadianceImage& image, const ImageOptions& options);
-std::string encodePfm(const RadianceImage& image, const ImageOptions& options);
+void encodeExr(const ImageRows& rows, const ImageOptions& options, FileWriter& out);
+void encodePng(const ImageRows& rows, const ImageOptions& options, FileWriter& out);
+void encodePfm(const ImageRows& rows, const ImageOptions& options, FileWriter& out);
 
 RadianceImage decodeExr(std::string_view bytes, const std::string& file);
 RadianceImage decodeDisplayedExr(std::string_view bytes,
@@ -28,6 +32,27 @@ inline constexpr int kMaxImageSide = 65536;
 /// of `fileBytes` can hold: a damaged or hostile header must not make the reader allocate what the file
 /// cannot fill.
 void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileBytes, const std::string& file);
+
+/// A few rows of a picture that is being written, and what is displayed of them.
+class RowBand {
+  public:
+    /// Rows in a band. OpenEXR's ZIP packs as many together.
+    static constexpr std::uint32_t kRows = 16;
+
+    RowBand(const ImageRows& rows, glm::vec2 display);
+
+    /// Takes the rows from `firstRow` on, kRows or as many as are left; returns their number.
+    std::uint32_t read(std::uint32_t firstRow);
+
+    std::span<const glm::vec3> invisible() const { return invisible_; }
+    std::span<const glm::vec3> visible() const { return visible_; }
+    std::span<const glm::vec3> displayed() const { return displayed_; }
+
+  private:
+    const ImageRows& rows_;
+    glm::vec2 display_;
+    std::vector<glm::vec3> invisible_, visible_, displayed_;
+};
 
 /// A black image.
 RadianceImage makeImage(std::uint32_t width, std::uint32_t height);

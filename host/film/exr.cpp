@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <exception>
+#include <span>
 
 #include "host/base/error.h"
 #include "host/film/codec.h"
@@ -21,23 +23,35 @@ constexpr const char* kDisplayedNames[3] = {"R", "G", "B"};
 constexpr const char* kInvisibleNames[3] = {"invisible.R", "invisible.G", "invisible.B"};
 constexpr const char* kVisibleNames[3] = {"visible.R", "visible.G", "visible.B"};
 
-/// A file in memory, so that every failure to write is seen by the one function that writes files.
-class MemoryOutput : public Imf::OStream {
+/// A file that is being written. OpenEXR completes it in a destructor, where it drops exceptions: the first
+/// is kept.
+class ExrOutput : public Imf::OStream {
   public:
-    MemoryOutput() : Imf::OStream("memory") {}
+    explicit ExrOutput(FileWriter& out) : Imf::OStream("output"), out_(out) {}
     void write(const char* source, int count) override {
-        const std::size_t end = position_ + static_cast<std::size_t>(count);
-        if (end > bytes_.size()) bytes_.resize(end);
-        std::memcpy(bytes_.data() + position_, source, static_cast<std::size_t>(count));
-        position_ = end;
+        attempt([&] { out_.write({source, static_cast<std::size_t>(count)}); });
     }
-    std::uint64_t tellp() override { return position_; }
-    void seekp(std::uint64_t position) override { position_ = position; }
-    std::string take() { return std::move(bytes_); }
+    std::uint64_t tellp() override { return out_.position(); }
+    void seekp(std::uint64_t position) override {
+        attempt([&] { out_.seek(position); });
+    }
+    void rethrow() const {
+        if (failure_) std::rethrow_exception(failure_);
+    }
 
   private:
-    std::string bytes_;
-    std::size_t position_ = 0;
+    template <typename Step>
+    void attempt(const Step& step) {
+        try {
+            step();
+        } catch (...) {
+            if (!failure_) failure_ = std::current_exception();
+            throw;
+        }
+    }
+
+    FileWriter& out_;
+    std::exception_ptr failure_;
 };
 
 class MemoryInput : public Imf::IStream {
@@ -78,26 +92,34 @@ bool hasChannels(const Imf::ChannelList& channels, const char* const (&names)[3]
 
 }  // namespace
 
-std::string encodeExr(const RadianceImage& image, const ImageOptions& options) {
-    const std::vector<glm::vec3> displayed = image.displayed(options.display);
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+void encodeExr(const ImageRows& rows, const ImageOptions& options, FileWriter& out) {
+    Imf::Header header(static_cast<int>(rows.width), static_cast<int>(rows.height));
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [key, value] : options.metadata)
         header.insert(key, Imf::StringAttribute(value));
-    Imf::FrameBuffer frame;
-    addSlices(frame, kDisplayedNames, displayed.data(), image.width);
-    addSlices(frame, kInvisibleNames, image.invisible.data(), image.width);
-    addSlices(frame, kVisibleNames, image.visible.data(), image.width);
-    for (auto slice = frame.begin(); slice != frame.end(); ++slice) {
-        header.channels().insert(slice.name(), Imf::Channel(Imf::FLOAT));
+    for (const auto& names : {kDisplayedNames, kInvisibleNames, kVisibleNames}) {
+        for (const char* name : std::span(names, 3))
+            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     }
-    MemoryOutput memory;
-    {
-        Imf::OutputFile file(memory, header);
-        file.setFrameBuffer(frame);
-        file.writePixels(static_cast<int>(image.height));
-    }  // the destructor completes the table of line offsets
-    return memory.take();
+    RowBand band(rows, options.display);
+    ExrOutput output(out);
+    try {
+        Imf::OutputFile file(output, header);
+        for (std::uint32_t y = 0; y < rows.height; y += RowBand::kRows) {
+            const std::uint32_t count = band.read(y);
+            const std::size_t before = std::size_t{y} * rows.width;
+            Imf::FrameBuffer frame;
+            addSlices(frame, kDisplayedNames, band.displayed().data() - before, rows.width);
+            addSlices(frame, kInvisibleNames, band.invisible().data() - before, rows.width);
+            addSlices(frame, kVisibleNames, band.visible().data() - before, rows.width);
+            file.setFrameBuffer(frame);
+            file.writePixels(static_cast<int>(count));
+        }
+    } catch (const std::exception&) {
+        output.rethrow();  // what went wrong, without OpenEXR's words around it
+        throw;
+    }
+    output.rethrow();
 }
 
 namespace {

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "host/base/parallel.h"
+
 namespace duolux {
 
 namespace {
@@ -85,25 +87,40 @@ std::uint64_t Film::totalSamples() const {
     return total;
 }
 
-RadianceImage Film::resolve() const {
-    RadianceImage image{width_, height_, {}, {}};
-    image.invisible.resize(sums_.size());
-    image.visible.resize(sums_.size());
+ImageRows Film::rows() const {
+    return {width_, height_,
+            [this](std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible) {
+                readRows(firstRow, invisible, visible);
+            }};
+}
+
+void Film::readRows(std::uint32_t firstRow, std::span<glm::vec3> invisible,
+                    std::span<glm::vec3> visible) const {
     const auto quantum = static_cast<double>(quantum_);
     const double pixels = static_cast<double>(sums_.size());
     const double lightScale = lightPaths_ > 0 ? quantum * pixels / static_cast<double>(lightPaths_) : 0.0;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const double scale = samples_[i] > 0 ? quantum / samples_[i] : 0.0;
-        const PixelSum light = lightSums_.empty() ? PixelSum{} : lightSums_[i];
-        const auto value = [&](std::int64_t gathered, std::int64_t shot) {
-            return static_cast<float>(static_cast<double>(gathered) * scale +
-                                      static_cast<double>(shot) * lightScale);
-        };
-        for (int c = 0; c < 3; ++c) {
-            image.invisible[i][c] = value(sums_[i].invisible[c], light.invisible[c]);
-            image.visible[i][c] = value(sums_[i].visible[c], light.visible[c]);
+    const std::size_t first = std::size_t{firstRow} * width_;
+    parallelFor(visible.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PixelSum& sum = sums_[first + i];
+            const double scale = samples_[first + i] > 0 ? quantum / samples_[first + i] : 0.0;
+            const PixelSum light = lightSums_.empty() ? PixelSum{} : lightSums_[first + i];
+            const auto value = [&](std::int64_t gathered, std::int64_t shot) {
+                return static_cast<float>(static_cast<double>(gathered) * scale +
+                                          static_cast<double>(shot) * lightScale);
+            };
+            for (int c = 0; c < 3; ++c) {
+                invisible[i][c] = value(sum.invisible[c], light.invisible[c]);
+                visible[i][c] = value(sum.visible[c], light.visible[c]);
+            }
         }
-    }
+    });
+}
+
+RadianceImage Film::resolve() const {
+    RadianceImage image{width_, height_, std::vector<glm::vec3>(sums_.size()),
+                        std::vector<glm::vec3>(sums_.size())};
+    readRows(0, image.invisible, image.visible);
     return image;
 }
 

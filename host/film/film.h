@@ -55,9 +55,15 @@ class Film {
     std::span<const PixelSum> lightSums() const { return lightSums_; }  ///< empty if there is no light
 
     /// Mean radiance per pixel: what it gathered and what light paths brought; black where there is neither.
+    /// The film must outlive the rows.
+    ImageRows rows() const;
+
+    /// All rows as an image.
     RadianceImage resolve() const;
 
   private:
+    void readRows(std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible) const;
+
     std::uint32_t width_, height_;
     float quantum_;
     bool overflowed_ = false;

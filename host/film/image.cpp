@@ -19,7 +19,7 @@ constexpr std::int64_t kMaxPixelsPerByte = 1032 * 8;
 
 struct Format {
     const char* extension;
-    std::string (*encode)(const RadianceImage&, const ImageOptions&);
+    void (*encode)(const ImageRows&, const ImageOptions&, FileWriter&);
     RadianceImage (*decode)(std::string_view, const std::string&);
 };
 
@@ -47,6 +47,21 @@ std::vector<glm::vec3> RadianceImage::displayed(glm::vec2 d) const {
     return result;
 }
 
+RowBand::RowBand(const ImageRows& rows, glm::vec2 display) : rows_(rows), display_(display) {
+    for (std::vector<glm::vec3>* pixels : {&invisible_, &visible_, &displayed_})
+        pixels->reserve(std::size_t{kRows} * rows.width);
+}
+
+std::uint32_t RowBand::read(std::uint32_t firstRow) {
+    const std::uint32_t count = std::min(kRows, rows_.height - firstRow);
+    for (std::vector<glm::vec3>* pixels : {&invisible_, &visible_, &displayed_})
+        pixels->resize(std::size_t{count} * rows_.width);
+    rows_.read(firstRow, invisible_, visible_);
+    for (std::size_t i = 0; i < displayed_.size(); ++i)
+        displayed_[i] = display_.x * invisible_[i] + display_.y * visible_[i];
+    return count;
+}
+
 RadianceImage makeImage(std::uint32_t width, std::uint32_t height) {
     const std::size_t count = std::size_t{width} * height;
     return {width, height, std::vector<glm::vec3>(count, glm::vec3(0.0f)),
@@ -70,16 +85,30 @@ bool isImagePath(const std::filesystem::path& path) {
     return formatOf(path) != nullptr;
 }
 
-void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options) {
-    assert(image.width > 0 && image.height > 0);
+ImageRows rowsOf(const RadianceImage& image) {
     assert(image.visible.size() == std::size_t{image.width} * image.height);
     assert(image.invisible.size() == image.visible.size());
+    const auto read = [&image](std::uint32_t firstRow, std::span<glm::vec3> invisible,
+                               std::span<glm::vec3> visible) {
+        const std::size_t first = std::size_t{firstRow} * image.width;
+        std::ranges::copy(std::span(image.invisible).subspan(first, invisible.size()), invisible.begin());
+        std::ranges::copy(std::span(image.visible).subspan(first, visible.size()), visible.begin());
+    };
+    return {image.width, image.height, read};
+}
+
+void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options) {
+    writeImage(path, rowsOf(image), options);
+}
+
+void writeImage(const std::filesystem::path& path, const ImageRows& rows, const ImageOptions& options) {
+    assert(rows.width > 0 && rows.height > 0);
     const Format* format = formatOf(path);
     if (format == nullptr) {
         throw MachineError(
             fmt::format("{}: unknown image format; expected .exr, .png or .pfm", path.string()));
     }
-    writeFileAtomically(path, [&](FileWriter& file) { file.write(format->encode(image, options)); });
+    writeFileAtomically(path, [&](FileWriter& file) { format->encode(rows, options, file); });
 }
 
 RadianceImage readImage(const std::filesystem::path& path) {

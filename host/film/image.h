@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,17 @@ struct RadianceImage {
     std::vector<glm::vec3> displayed(glm::vec2 d) const;
 };
 
+/// A picture that is made while it is written, so that it need not lie in memory as a whole.
+struct ImageRows {
+    std::uint32_t width = 0, height = 0;
+    /// Fills both spans, which hold so many whole rows, with those from `firstRow` on.
+    std::function<void(std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible)>
+        read;
+};
+
+/// The rows of an image that outlives them.
+ImageRows rowsOf(const RadianceImage& image);
+
 struct ImageOptions {
     glm::vec2 display{0.0f, 1.0f};
     float exposure = 0.0f;                                      ///< stops; PNG only
@@ -29,6 +42,7 @@ bool isImagePath(const std::filesystem::path& path);
 
 /// Writes by extension, atomically. EXR: float R G B (displayed), invisible.R/G/B, visible.R/G/B.
 /// PNG: 8 bit sRGB after exposure, clamped. PFM: float RGB (displayed). Throws MachineError.
+void writeImage(const std::filesystem::path& path, const ImageRows& rows, const ImageOptions& options);
 void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options);
 
 /// Reads an EXR written by writeImage, or a PFM or PNG (then as the visible component; PNG decoded from sRGB

@@ -72,16 +72,16 @@ float swapBytes(float value) {
 
 }  // namespace
 
-std::string encodePfm(const RadianceImage& image, const ImageOptions& options) {
-    const std::vector<glm::vec3> pixels = image.displayed(options.display);
-    std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
-    const std::size_t rowBytes = image.width * sizeof(glm::vec3);
-    std::size_t offset = bytes.size();
-    bytes.resize(offset + rowBytes * image.height);
-    for (std::uint32_t y = image.height; y-- > 0; offset += rowBytes) {
-        std::memcpy(bytes.data() + offset, &pixels[std::size_t{y} * image.width], rowBytes);
+void encodePfm(const ImageRows& rows, const ImageOptions& options, FileWriter& out) {
+    out.write(fmt::format("PF\n{} {}\n-1.0\n", rows.width, rows.height));
+    RowBand band(rows, options.display);
+    const std::uint32_t bands = (rows.height + RowBand::kRows - 1) / RowBand::kRows;
+    for (std::uint32_t i = bands; i-- > 0;) {
+        for (std::uint32_t y = band.read(i * RowBand::kRows); y-- > 0;) {
+            const auto row = band.displayed().subspan(std::size_t{y} * rows.width, rows.width);
+            out.write({reinterpret_cast<const char*>(row.data()), row.size_bytes()});
+        }
     }
-    return bytes;
 }
 
 RadianceImage decodePfm(std::string_view bytes, const std::string& file) {

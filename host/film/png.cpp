@@ -3,6 +3,8 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
+#include <exception>
+#include <new>
 #include <stdexcept>
 
 #include "host/base/error.h"
@@ -14,41 +16,44 @@ namespace duolux {
 
 namespace {
 
-std::vector<png_byte> toBytes(const RadianceImage& image, const ImageOptions& options) {
-    const std::vector<glm::vec3> pixels = image.displayed(options.display);
-    const double scale = std::exp2(static_cast<double>(options.exposure));
-    std::vector<png_byte> bytes(pixels.size() * 3);
+void toBytes(std::span<const glm::vec3> pixels, double scale, std::vector<png_byte>& bytes) {
+    bytes.resize(pixels.size() * 3);
     parallelFor(pixels.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             for (int c = 0; c < 3; ++c)
-                bytes[3 * i + c] = toSrgb8(scale * static_cast<double>(pixels[i][c]));
+                bytes[3 * i + static_cast<std::size_t>(c)] =
+                    toSrgb8(scale * static_cast<double>(pixels[i][c]));
         }
     });
-    return bytes;
 }
 
-/// What libpng's callbacks share with encodePng. libpng reports errors by longjmp, so nothing with a
-/// destructor may live between setjmp and it: all such things are made before.
+/// What libpng's callbacks share with the writer. libpng reports errors by longjmp, so nothing with a
+/// destructor may live between setjmp and it, and no exception may pass through it.
 struct PngOutput {
-    std::string bytes;
-    std::string problem;
+    FileWriter& out;
+    std::exception_ptr failure{};
 };
 
 void onWrite(png_structp png, png_bytep data, png_size_t size) {
     auto& output = *static_cast<PngOutput*>(png_get_io_ptr(png));
-    bool failed = false;
     try {
-        output.bytes.append(reinterpret_cast<const char*>(data), size);
-    } catch (const std::exception&) {
-        failed = true;
+        output.out.write({reinterpret_cast<const char*>(data), size});
+        return;
+    } catch (...) {
+        output.failure = std::current_exception();
     }
-    if (failed) png_error(png, "out of memory");
+    png_longjmp(png, 1);
 }
 
 void onFlush(png_structp) {}
 
 void onError(png_structp png, png_const_charp message) {
-    static_cast<PngOutput*>(png_get_error_ptr(png))->problem = message;
+    auto& output = *static_cast<PngOutput*>(png_get_error_ptr(png));
+    try {
+        output.failure = std::make_exception_ptr(std::runtime_error(message));
+    } catch (...) {
+        output.failure = std::current_exception();
+    }
     png_longjmp(png, 1);
 }
 
@@ -67,21 +72,45 @@ std::vector<png_text> toText(const ImageOptions& options) {
     return texts;
 }
 
-/// False if libpng failed.
-bool writePng(png_structp png, png_infop info, PngOutput& output, std::uint32_t width, std::uint32_t height,
-              const png_byte* pixels, const std::vector<png_text>& texts) {
+// Each returns false if libpng failed.
+
+bool writeHeader(png_structp png, png_infop info, PngOutput& output, const ImageRows& rows,
+                 const std::vector<png_text>& texts) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_write_fn(png, &output, onWrite, onFlush);
-    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, info, rows.width, rows.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_RELATIVE);
     if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
     png_write_info(png, info);
-    for (std::uint32_t y = 0; y < height; ++y)
-        png_write_row(png, pixels + std::size_t{3} * width * y);
+    return true;
+}
+
+bool writeRows(png_structp png, const png_byte* pixels, std::size_t rowBytes, std::uint32_t count) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    for (std::uint32_t y = 0; y < count; ++y)
+        png_write_row(png, pixels + rowBytes * y);
+    return true;
+}
+
+bool writeEnd(png_structp png, png_infop info) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_write_end(png, info);
     return true;
 }
+
+/// libpng's structures, which are destroyed in any case.
+struct PngWriter {
+    explicit PngWriter(PngOutput& output)
+        : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, onError, onWarning)),
+          info(png != nullptr ? png_create_info_struct(png) : nullptr) {}
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+
+    png_structp png;
+    png_infop info;
+};
 
 [[noreturn]] void throwUnreadable(const png_image& png, const std::string& file) {
     throw InputError(file, "", std::string("is not a readable PNG image: ") + png.message, "");
@@ -89,17 +118,24 @@ bool writePng(png_structp png, png_infop info, PngOutput& output, std::uint32_t 
 
 }  // namespace
 
-std::string encodePng(const RadianceImage& image, const ImageOptions& options) {
-    const std::vector<png_byte> pixels = toBytes(image, options);
+void encodePng(const ImageRows& rows, const ImageOptions& options, FileWriter& out) {
     const std::vector<png_text> texts = toText(options);
-    PngOutput output;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, onError, onWarning);
-    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    const bool written =
-        info != nullptr && writePng(png, info, output, image.width, image.height, pixels.data(), texts);
-    png_destroy_write_struct(&png, &info);
-    if (!written) throw std::runtime_error(output.problem.empty() ? "libpng cannot start" : output.problem);
-    return std::move(output.bytes);
+    const double scale = std::exp2(static_cast<double>(options.exposure));
+    PngOutput output{out};
+    PngWriter writer(output);
+    if (writer.info == nullptr) throw std::bad_alloc();
+    const auto require = [&](bool written) {
+        if (!written) std::rethrow_exception(output.failure);
+    };
+    require(writeHeader(writer.png, writer.info, output, rows, texts));
+    RowBand band(rows, options.display);
+    std::vector<png_byte> bytes;
+    for (std::uint32_t y = 0; y < rows.height; y += RowBand::kRows) {
+        const std::uint32_t count = band.read(y);
+        toBytes(band.displayed(), scale, bytes);
+        require(writeRows(writer.png, bytes.data(), std::size_t{3} * rows.width, count));
+    }
+    require(writeEnd(writer.png, writer.info));
 }
 
 RadianceImage decodePng(std::string_view bytes, const std::string& file) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "host/film/font.h"
 #include "host/base/utf8.h"
+#include "host/film/font.h"
 
 #define STB_TRUETYPE_IMPLEMENTATION
 #define STBTT_STATIC

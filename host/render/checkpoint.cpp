@@ -23,20 +23,39 @@ constexpr std::size_t kMagicBytes = 8;
 
 /// FNV-1a over 64-bit words (Fowler, Noll, Vo), the last one filled up with zeros: against damage, not
 /// malice.
-std::uint64_t checksum(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325ull;
-    for (std::size_t i = 0; i < bytes.size(); i += 8) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
-        hash = (hash ^ word) * 0x100000001b3ull;
-        hash ^= hash >> 32;
+class Checksum {
+  public:
+    void add(std::string_view bytes) {
+        while (!bytes.empty()) {
+            for (; filled_ == 0 && bytes.size() >= sizeof word_; bytes.remove_prefix(sizeof word_)) {
+                std::memcpy(&word_, bytes.data(), sizeof word_);
+                hash_ = hashWith(word_);
+            }
+            if (filled_ == 0) word_ = 0;
+            const std::size_t taken = std::min(sizeof word_ - filled_, bytes.size());
+            std::memcpy(reinterpret_cast<char*>(&word_) + filled_, bytes.data(), taken);
+            bytes.remove_prefix(taken);
+            filled_ += taken;
+            if (filled_ < sizeof word_) return;
+            hash_ = hashWith(word_);
+            filled_ = 0;
+        }
     }
-    return hash;
-}
+    std::uint64_t value() const { return filled_ > 0 ? hashWith(word_) : hash_; }
+
+  private:
+    std::uint64_t hashWith(std::uint64_t word) const {
+        const std::uint64_t hash = (hash_ ^ word) * 0x100000001b3ull;
+        return hash ^ hash >> 32;
+    }
+
+    std::uint64_t hash_ = 0xcbf29ce484222325ull, word_ = 0;
+    std::size_t filled_ = 0;  // bytes of word_
+};
 
 template <typename T>
-void append(std::string& out, std::span<const T> items) {
-    out.append(reinterpret_cast<const char*>(items.data()), items.size_bytes());
+std::string_view bytesOf(std::span<const T> items) {
+    return {reinterpret_cast<const char*>(items.data()), items.size_bytes()};
 }
 
 /// Takes items off the front of the bytes.
@@ -143,15 +162,18 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
                      const RenderStatistics& statistics) {
     const std::string header = headerOf(origin, film, statistics);
     const auto headerBytes = static_cast<std::uint32_t>(header.size());
-    std::string bytes(kMagic, kMagicBytes);
-    append(bytes, std::span(&headerBytes, 1));
-    bytes += header;
-    append(bytes, film.samples());
-    append(bytes, film.sums());
-    append(bytes, film.lightSums());
-    const std::uint64_t sum = checksum(bytes);
-    append(bytes, std::span(&sum, 1));
-    writeFile(path, bytes);
+    writeFileAtomically(path, [&](FileWriter& file) {
+        Checksum checksum;
+        for (const std::string_view part :
+             {std::string_view(kMagic, kMagicBytes), bytesOf(std::span(&headerBytes, 1)),
+              std::string_view(header), bytesOf(film.samples()), bytesOf(film.sums()),
+              bytesOf(film.lightSums())}) {
+            checksum.add(part);
+            file.write(part);
+        }
+        const std::uint64_t sum = checksum.value();
+        file.write(bytesOf(std::span(&sum, 1)));
+    });
 }
 
 namespace {
@@ -169,7 +191,9 @@ Checkpoint read(const std::filesystem::path& path) {
     if (bytes[kMagicBytes - 1] != kMagic[kMagicBytes - 1]) fail("is a checkpoint of another version");
     const std::string_view content(bytes.data(), bytes.size() - sizeof sum);
     std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
-    if (sum != checksum(content)) fail("is damaged or incomplete: its checksum is wrong");
+    Checksum checksum;
+    checksum.add(content);
+    if (sum != checksum.value()) fail("is damaged or incomplete: its checksum is wrong");
     try {
         return parse(bytes, [&] { fail("is damaged: its parts do not fit"); });
     } catch (const nlohmann::json::exception&) {

@@ -57,7 +57,7 @@ class Gatherer {
                 : PathKernel::kMaxSamples;
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), control.firstSample,
                           context_.scene.render.spp, kernel.maxSlots(), maxSamples);
-        schedule.resume(samplesOfSlots());
+        if (context_.samplesResumed > 0) schedule.resume(samplesOfSlots());
         if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.laneSamples();
         context_.begin();

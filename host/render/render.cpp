@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <new>
+#include <vector>
 
 #include "host/base/error.h"
 #include "host/base/memory.h"
@@ -17,10 +18,16 @@ namespace duolux {
 namespace {
 
 double meanDisplayed(const Film& film, glm::vec2 display) {
-    const RadianceImage image = film.resolve();
+    const ImageRows rows = film.rows();
+    std::vector<glm::vec3> invisible(film.width()), visible(film.width());
     double total = 0.0;
-    for (const glm::vec3& c : image.displayed(display))
-        total += (static_cast<double>(c.x) + static_cast<double>(c.y) + static_cast<double>(c.z)) / 3.0;
+    for (std::uint32_t y = 0; y < film.height(); ++y) {
+        rows.read(y, invisible, visible);
+        for (std::size_t x = 0; x < film.width(); ++x) {
+            const glm::vec3 c = display.x * invisible[x] + display.y * visible[x];
+            total += (static_cast<double>(c.x) + static_cast<double>(c.y) + static_cast<double>(c.z)) / 3.0;
+        }
+    }
     return total / (static_cast<double>(film.width()) * film.height());
 }
 

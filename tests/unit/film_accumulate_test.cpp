@@ -13,6 +13,23 @@ namespace {
 constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
 
+TEST(Film, RowsAreThoseOfTheImage) {
+    Film film(3, 40, 0.25f);
+    for (std::uint32_t pixel = 0; pixel < 120; ++pixel) {
+        const Film::PixelSum sum{{pixel, 2 * pixel, 3}, {5 * pixel, 7, pixel}};
+        film.add(std::span(&pixel, 1), std::span(&sum, 1), pixel % 4);
+    }
+    const RadianceImage image = film.resolve();
+    std::vector<glm::vec3> invisible(2 * 3), visible(2 * 3);
+    for (std::uint32_t y = 0; y < 40; y += 2) {
+        film.rows().read(y, invisible, visible);
+        for (std::size_t i = 0; i < 6; ++i) {
+            EXPECT_EQ(invisible[i], image.invisible[3 * y + i]);
+            EXPECT_EQ(visible[i], image.visible[3 * y + i]);
+        }
+    }
+}
+
 TEST(Film, IsBlackBeforeAnySample) {
     const Film film(3, 2, 0.25f);
     const RadianceImage image = film.resolve();

@@ -22,6 +22,7 @@
 namespace duolux {
 namespace {
 
+using test::encoded;
 using test::plainImage;
 using test::sameBits;
 using test::variedImage;
@@ -151,21 +152,21 @@ TEST(Exr, ReadsForeignFilesAsVisible) {
 
 TEST(Pfm, RoundTripKeepsEveryBitOfWhatIsDisplayed) {
     const TemporaryFolder folder;
-    RadianceImage image = variedImage(19, 7);
+    RadianceImage image = variedImage(19, 41);  // several bands
     image.visible[5] = {kNan, kInfinity, -kInfinity};
     writeImage(folder / "a.pfm", image, {});
     const RadianceImage back = readImage(folder / "a.pfm");
     EXPECT_EQ(back.width, 19u);
-    EXPECT_EQ(back.height, 7u);
+    EXPECT_EQ(back.height, 41u);
     EXPECT_TRUE(sameBits(back.visible, image.displayed({0.0f, 1.0f})));
-    EXPECT_TRUE(sameBits(back.invisible, plainImage(19, 7, {}).invisible));
+    EXPECT_TRUE(sameBits(back.invisible, plainImage(19, 41, {}).invisible));
 }
 
 TEST(Pfm, HasTheBottomRowFirst) {
     RadianceImage image = plainImage(1, 2, {});
     image.visible[0] = {1.0f, 2.0f, 3.0f};  // the top
     image.visible[1] = {4.0f, 5.0f, 6.0f};
-    const std::string bytes = encodePfm(image, {});
+    const std::string bytes = encoded(encodePfm, image);
     const std::string header = "PF\n1 2\n-1.0\n";
     ASSERT_EQ(bytes.substr(0, header.size()), header);
     float values[6];
@@ -201,6 +202,13 @@ TEST(Png, EveryCodeSurvivesARoundTrip) {
     EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "b.png"));
 }
 
+TEST(Png, KeepsTheOrderOfRows) {
+    RadianceImage image = plainImage(3, 40, {});
+    for (std::size_t i = 0; i < image.visible.size(); ++i)
+        image.visible[i] = glm::vec3(fromSrgb8(static_cast<std::uint8_t>(i)));
+    EXPECT_EQ(decodePng(encoded(encodePng, image), "a.png").visible, image.visible);
+}
+
 TEST(Png, AppliesExposureAndDisplayThenClamps) {
     RadianceImage image = plainImage(2, 1, {0.25f, 0.75f, -1.0f});
     image.invisible[0] = {0.25f, 0.0f, 0.0f};
@@ -208,10 +216,10 @@ TEST(Png, AppliesExposureAndDisplayThenClamps) {
     ImageOptions options;
     options.display = {1.0f, 1.0f};
     options.exposure = 1.0f;
-    const RadianceImage back = decodePng(encodePng(image, options), "a.png");
+    const RadianceImage back = decodePng(encoded(encodePng, image, options), "a.png");
     EXPECT_EQ(back.visible[0], glm::vec3(1.0f, 1.0f, 0.0f));
     options.exposure = -1.0f;
-    const RadianceImage dark = decodePng(encodePng(image, options), "a.png");
+    const RadianceImage dark = decodePng(encoded(encodePng, image, options), "a.png");
     EXPECT_EQ(dark.visible[0], glm::vec3(fromSrgb8(toSrgb8(0.25)), fromSrgb8(toSrgb8(0.375)), 0.0f));
     EXPECT_EQ(dark.visible[1], glm::vec3(0.0f, 1.0f, 0.0f));
 }

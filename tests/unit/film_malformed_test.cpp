@@ -15,6 +15,7 @@
 namespace duolux {
 namespace {
 
+using test::encoded;
 using test::plainImage;
 using test::variedImage;
 using test::writeText;
@@ -24,7 +25,7 @@ using testing::StartsWith;
 
 struct Codec {
     const char* extension;
-    std::string (*encode)(const RadianceImage&, const ImageOptions&);
+    test::Encode* encode;
     RadianceImage (*decode)(std::string_view, const std::string&);
 };
 
@@ -52,7 +53,7 @@ std::string inputErrorOf(Read read) {
 }
 
 TEST_P(MalformedImage, TruncatedAnywhereIsAnInputError) {
-    const std::string whole = GetParam().encode(variedImage(9, 5), {});
+    const std::string whole = encoded(GetParam().encode, variedImage(9, 5));
     for (std::size_t length = 0; length < whole.size(); ++length) {
         // Some formats end in bytes that no reader needs, so that an image missing only those is complete.
         try {
@@ -69,7 +70,7 @@ TEST_P(MalformedImage, TruncatedAnywhereIsAnInputError) {
 }
 
 TEST_P(MalformedImage, DamagedBytesNeverCrash) {
-    const std::string whole = GetParam().encode(variedImage(9, 5), {});
+    const std::string whole = encoded(GetParam().encode, variedImage(9, 5));
     std::mt19937 random(7);
     for (int round = 0; round < 2000; ++round) {
         std::string bytes = whole;
@@ -121,7 +122,7 @@ TEST(ReadImage, NamesWhatIsWrongWithThePath) {
                 HasSubstr("a.jpg: unknown image format; expected .exr, .png or .pfm"));
     std::filesystem::create_directory(folder / "dir.png");
     EXPECT_THAT(inputErrorOf([&] { readImage(folder / "dir.png"); }), HasSubstr("is a directory"));
-    writeText(folder / "png.exr", encodePng(plainImage(2, 2, {}), {}));
+    writeText(folder / "png.exr", encoded(encodePng, plainImage(2, 2, {})));
     EXPECT_THAT(inputErrorOf([&] { readImage(folder / "png.exr"); }),
                 HasSubstr("png.exr: is not a readable OpenEXR"));
 }

@@ -32,6 +32,12 @@ bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) 
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec3)) == 0;
 }
 
+std::string encoded(Encode* encode, const RadianceImage& image, const ImageOptions& options) {
+    const TemporaryFolder folder;
+    writeFileAtomically(folder / "image", [&](FileWriter& file) { encode(rowsOf(image), options, file); });
+    return readFile(folder / "image");
+}
+
 void writeText(const std::filesystem::path& path, std::string_view bytes) {
     std::ofstream out(path, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

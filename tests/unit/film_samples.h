@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "host/base/file.h"
 #include "host/base/temporary_folder.h"
 #include "host/film/image.h"
 
@@ -17,6 +18,10 @@ RadianceImage plainImage(std::uint32_t width, std::uint32_t height, glm::vec3 co
 
 /// True if both hold the same bits (so that NaN equals NaN, and 0 differs from -0).
 bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b);
+
+/// The bytes of an image in a format (host/film/codec.h).
+using Encode = void(const ImageRows&, const ImageOptions&, FileWriter&);
+std::string encoded(Encode* encode, const RadianceImage& image, const ImageOptions& options = {});
 
 void writeText(const std::filesystem::path& path, std::string_view bytes);
 

@@ -2,12 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <fstream>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/parallel.h"
 #include "host/film/image.h"
+#include "tests/support/sanitizer.h"
 #include "tests/unit/film_samples.h"
 
 namespace duolux {
@@ -99,6 +104,35 @@ TEST_P(WriteFailure, IsNotSeenWhenOverwritingWorks) {
     writeImage(path, variedImage(2, 3), {});
     EXPECT_EQ(readImage(path).height, 3u);
     EXPECT_THAT(namesIn(folder.path()), testing::ElementsAre(GetParam()));
+}
+
+/// Bytes that this process has mapped.
+std::size_t mappedBytes() {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST_P(WriteFailure, IsNotForAPictureThatDoesNotFitIntoMemory) {
+    if (test::kAddressSanitizer) GTEST_SKIP();
+    // 36 MiB in an EXR, 12 in a PFM, and as much as floats for a PNG.
+    const ImageRows rows{1024, 1024,
+                         [](std::uint32_t firstRow, std::span<glm::vec3> invisible, auto visible) {
+                             std::ranges::fill(invisible, glm::vec3(0.5f));
+                             std::ranges::fill(visible, glm::vec3(static_cast<float>(firstRow)));
+                         }};
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / GetParam();
+    rlimit old{};
+    ::getrlimit(RLIMIT_AS, &old);
+    rlimit limit = old;
+    limit.rlim_cur = mappedBytes() + (std::size_t{11} << 20);
+    limitWorkers(1);  // the stacks of others would count
+    ::setrlimit(RLIMIT_AS, &limit);
+    EXPECT_NO_THROW(writeImage(path, rows, {}));
+    ::setrlimit(RLIMIT_AS, &old);
+    limitWorkers(0);
+    EXPECT_EQ(readImage(path).visible.back(), glm::vec3(std::string(GetParam()) == "a.png" ? 1.0f : 1008.0f));
 }
 
 TEST(WriteImage, RefusesAnUnknownFormat) {
