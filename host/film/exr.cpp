@@ -14,6 +14,7 @@
 
 #include "host/base/error.h"
 #include "host/film/codec.h"
+#include "host/film/exr_header.h"
 
 namespace duolux {
 
@@ -130,6 +131,7 @@ RadianceImage decode(std::string_view bytes, const std::string& file, bool displ
         return true;
     }();
     static_cast<void>(kLimited);
+    checkExrHeader(bytes, file);
     try {
         MemoryInput memory(bytes);
         Imf::InputFile input(memory);

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
@@ -116,6 +119,58 @@ struct PngWriter {
     throw InputError(file, "", std::string("is not a readable PNG image: ") + png.message, "");
 }
 
+/// A big-endian number.
+std::uint32_t number(std::string_view bytes) {
+    std::uint32_t value = 0;
+    for (const char byte : bytes.substr(0, 4))
+        value = value << 8 | static_cast<unsigned char>(byte);
+    return value;
+}
+
+/// What of a PNG file libpng needs. It allocates what the length of a chunk claims, and inflates text: so
+/// lengths are held against the file's, and only chunks that change the picture are passed on.
+std::string essentialChunks(std::string_view bytes, const std::string& file) {
+    constexpr std::size_t kSignature = 8,
+                          kAround = 12;  // length and type before the data of a chunk, CRC after
+    constexpr std::array<std::string_view, 10> kEssential{"IHDR", "PLTE", "IDAT", "IEND", "tRNS",
+                                                          "gAMA", "cHRM", "sRGB", "sBIT", "iCCP"};
+    std::string out(bytes.substr(0, kSignature));
+    std::uint64_t imageBytes = 0;  // compressed
+    std::string_view header;
+    for (std::size_t at = kSignature; at + kAround <= bytes.size();) {
+        const std::string_view type = bytes.substr(at + 4, 4);
+        const std::uint64_t length = number(bytes.substr(at));
+        const std::size_t left = bytes.size() - at - kAround;
+        if (length > left) {
+            throw InputError(file, "",
+                             fmt::format("is not a readable PNG image: a chunk at byte {} claims {} bytes "
+                                         "where {} are left",
+                                         at, length, left),
+                             "expected a complete file");
+        }
+        const std::string_view chunk = bytes.substr(at, kAround + static_cast<std::size_t>(length));
+        if (std::ranges::find(kEssential, type) != kEssential.end()) out += chunk;
+        if (type == "IDAT") imageBytes += length;
+        if (type == "IHDR" && length >= 13) header = chunk.substr(8);
+        if (type == "IEND") break;
+        at += chunk.size();
+    }
+    if (header.empty()) return out;  // libpng says so
+    const std::uint32_t width = number(header), height = number(header.substr(4));
+    checkImageSize(width, height, bytes.size(), file);
+    // Deflate packs at most 1032 bytes into one, and every row has one for its filter.
+    const auto depth = static_cast<unsigned char>(header[8]), colour = static_cast<unsigned char>(header[9]);
+    const std::uint64_t channels = colour == 2 ? 3 : colour == 6 ? 4 : colour == 4 ? 2 : 1;
+    const std::uint64_t unpacked = (width * channels * depth / 8 + 1) * height;
+    if (unpacked / 1032 > imageBytes) {
+        throw InputError(
+            file, "",
+            fmt::format("claims {} x {} pixels but has only {} bytes of them", width, height, imageBytes),
+            "expected a complete file");
+    }
+    return out;
+}
+
 }  // namespace
 
 void encodePng(const ImageRows& rows, const ImageOptions& options, FileWriter& out) {
@@ -141,10 +196,10 @@ void encodePng(const ImageRows& rows, const ImageOptions& options, FileWriter& o
 RadianceImage decodePng(std::string_view bytes, const std::string& file) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) throwUnreadable(png, file);
+    const std::string chunks = essentialChunks(bytes, file);
+    if (png_image_begin_read_from_memory(&png, chunks.data(), chunks.size()) == 0) throwUnreadable(png, file);
     std::vector<png_byte> pixels;
     try {
-        checkImageSize(png.width, png.height, bytes.size(), file);
         pixels.resize(std::size_t{png.width} * png.height * 3);
     } catch (...) {
         png_image_free(&png);

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_duolux.h"
-#include "tests/support/sanitizer.h"
+#include "tests/support/address_space.h"
 
 namespace duolux::test {
 namespace {

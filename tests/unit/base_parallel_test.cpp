@@ -1,10 +1,7 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
-#include <fstream>
 #include <mutex>
 #include <numeric>
 #include <set>
@@ -13,7 +10,7 @@
 #include <vector>
 
 #include "host/base/parallel.h"
-#include "tests/support/sanitizer.h"
+#include "tests/support/address_space.h"
 
 namespace duolux {
 namespace {
@@ -71,19 +68,13 @@ TEST(ParallelFor, UsesTheThreadsThatWereChosen) {
 }
 
 TEST(ParallelFor, DoesWithFewerThreadsThanWereChosen) {
-    if (test::kAddressSanitizer) GTEST_SKIP();
-    // Two stacks fit into the address space that is left, but not sixteen.
-    rlimit old{};
-    ::getrlimit(RLIMIT_AS, &old);
-    rlimit limit = old;
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    limit.rlim_cur = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + (std::size_t{20} << 20);
+    // A few stacks fit into the address space that is left, but not sixteen.
     limitWorkers(16);
     std::atomic<int> sum{0};
-    ::setrlimit(RLIMIT_AS, &limit);
-    EXPECT_NO_THROW(parallelFor(100, 1, [&](std::size_t begin, std::size_t) { sum += int(begin); }));
-    ::setrlimit(RLIMIT_AS, &old);
+    {
+        const test::AddressSpaceLimit limit(std::size_t{20} << 20);
+        EXPECT_NO_THROW(parallelFor(100, 1, [&](std::size_t begin, std::size_t) { sum += int(begin); }));
+    }
     limitWorkers(0);
     EXPECT_EQ(sum, 4950);
 }

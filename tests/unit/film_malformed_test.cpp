@@ -4,17 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <initializer_list>
+#include <optional>
 #include <random>
+#include <tuple>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/film/codec.h"
 #include "host/film/image.h"
+#include "tests/support/address_space.h"
 #include "tests/unit/film_samples.h"
 
 namespace duolux {
 namespace {
 
+using test::AddressSpaceLimit;
 using test::encoded;
 using test::plainImage;
 using test::variedImage;
@@ -104,6 +109,81 @@ TEST(MalformedPfm, HeadersAreChecked) {
 TEST(MalformedPfm, TruncationTellsHowMuchIsThere) {
     EXPECT_EQ(inputErrorOf([] { decodePfm("PF\n1 2\n-1\n0123", "h.pfm"); }),
               "h.pfm: is truncated: 4 of 24 bytes of pixels; expected a complete image");
+}
+
+/// A chunk of a PNG file without a valid checksum; `length`: what it claims.
+std::string pngChunk(std::uint32_t length, const std::string& type, const std::string& data) {
+    std::string out;
+    for (int shift = 24; shift >= 0; shift -= 8)
+        out += static_cast<char>(length >> shift);
+    return out + type + data + std::string(4, '\0');
+}
+
+std::string pngHeader(std::uint32_t width, std::uint32_t height) {
+    std::string size;
+    for (const std::uint32_t side : {width, height}) {
+        for (int shift = 24; shift >= 0; shift -= 8)
+            size += static_cast<char>(side >> shift);
+    }
+    return "\x89PNG\r\n\x1A\n" + pngChunk(13, "IHDR", size + std::string("\x08\x02\0\0\0", 5));
+}
+
+TEST(MalformedPng, ClaimsAreHeldAgainstTheSizeOfTheFile) {
+    const AddressSpaceLimit limit(std::size_t{32} << 20);
+    EXPECT_EQ(
+        inputErrorOf([] { decodePng(pngHeader(13, 9) + pngChunk(0x7fffffff, "tEXt", "abc"), "a.png"); }),
+        "a.png: is not a readable PNG image: a chunk at byte 33 claims 2147483647 bytes where 3 are left; "
+        "expected a complete file");
+    EXPECT_EQ(
+        inputErrorOf([] { decodePng(pngHeader(600, 600) + pngChunk(9, "IDAT", "123456789"), "a.png"); }),
+        "a.png: claims 600 x 600 pixels but has only 9 bytes of them; expected a complete file");
+}
+
+/// The beginning of an EXR file: attributes, each with the size that it claims.
+std::string exrHeader(
+    const std::vector<std::tuple<std::string, std::string, std::int32_t, std::string>>& attributes) {
+    std::string out("\x76\x2f\x31\x01\x02\0\0\0", 8);
+    for (const auto& [name, type, size, value] : attributes) {
+        out += name + '\0' + type + '\0';
+        out.append(reinterpret_cast<const char*>(&size), sizeof size);
+        out += value;
+    }
+    return out + '\0';
+}
+
+std::string words(std::initializer_list<std::int32_t> values) {
+    return {reinterpret_cast<const char*>(std::data(values)), values.size() * sizeof(std::int32_t)};
+}
+
+TEST(MalformedExr, ClaimsAreHeldAgainstTheSizeOfTheFile) {
+    const AddressSpaceLimit limit(std::size_t{32} << 20);
+    EXPECT_EQ(
+        inputErrorOf([] {
+            decodeExr(exrHeader({{"comments", "string", 0x7fffffff, "abc"}}), "a.exr");
+        }),
+        "a.exr: is not a readable OpenEXR image: it claims 2147483647 bytes for the attribute 'comments' "
+        "where 4 are left; expected a complete file");
+    std::string channels;
+    for (const char* name : {"B", "G", "R"})
+        channels += std::string(name) + '\0' + words({2, 0, 1, 1});
+    channels += '\0';
+    const auto image = [&](std::int32_t width, std::int32_t height, char compression,
+                           std::optional<std::string> tiles) {
+        std::vector<std::tuple<std::string, std::string, std::int32_t, std::string>> attributes{
+            {"channels", "chlist", static_cast<std::int32_t>(channels.size()), channels},
+            {"compression", "compression", 1, {compression}},
+            {"dataWindow", "box2i", 16, words({0, 0, width - 1, height - 1})}};
+        if (tiles) attributes.emplace_back("tiles", "tiledesc", 9, *tiles + '\0');
+        return inputErrorOf([&] { decodeExr(exrHeader(attributes), "a.exr"); });
+    };
+    for (const std::string& message :
+         {image(5000, 5000, 3, std::nullopt), image(65536, 1, 9, std::nullopt),
+          image(65536, 65536, 0, std::nullopt), image(100, 100, 3, words({65536, 65536})),
+          image(100, 100, 3, words({1, 1}))}) {
+        EXPECT_THAT(message,
+                    testing::MatchesRegex(
+                        "a.exr: .*claims [0-9]+ x [0-9]+ pixels .*but is only [0-9]+ bytes long; .*"));
+    }
 }
 
 TEST(ImageSize, IsLimited) {

@@ -1,0 +1,154 @@
+// The layout of OpenEXR files: "OpenEXR File Layout", openexr.com. Numbers are little-endian.
+#include "host/film/exr_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "host/base/error.h"
+#include "host/film/codec.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr std::uint32_t kMagic = 20000630;
+constexpr std::uint32_t kMultiPart = 0x1000;  // of the version field
+
+/// Bytes of pixels that a byte of a file can stand for: deflate's most, which no other method exceeds, but
+/// for DWA, which packs the coefficients of 64 equal pixels into two before.
+constexpr std::uint64_t kMaxExpansion = 1032;
+constexpr std::uint64_t kMaxDwaExpansion = 32 * kMaxExpansion;
+
+/// OpenEXR unpacks blocks of lines whole, however few lines there are: harmless up to here.
+constexpr std::uint64_t kFineBlockBytes = std::uint64_t{64} << 20;
+
+/// Lines in a block, by method of compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+constexpr std::uint32_t kBlockLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+constexpr std::uint8_t kDwaa = 8;
+
+std::uint64_t times(std::uint64_t a, std::uint64_t b) {
+    std::uint64_t product = 0;
+    return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<std::uint64_t>::max() : product;
+}
+
+/// What the header of one part says.
+struct Part {
+    std::int64_t width = 0, height = 0;
+    std::uint64_t pixelBytes = 0;
+    std::uint8_t compression = 0;
+    std::uint32_t tileWidth = 0, tileHeight = 0;  // 0: lines, no tiles
+};
+
+class HeaderReader {
+  public:
+    HeaderReader(std::string_view bytes, const std::string& file)
+        : rest_(bytes), size_(bytes.size()), file_(file) {}
+
+    template <typename T>
+    T number() {
+        T value{};
+        if (rest_.size() < sizeof value) fail("ends within its header");
+        std::memcpy(&value, rest_.data(), sizeof value);
+        rest_.remove_prefix(sizeof value);
+        return value;
+    }
+
+    /// Up to a zero byte.
+    std::string_view text() {
+        const std::size_t length = rest_.find('\0');
+        if (length == std::string_view::npos) fail("ends within its header");
+        const std::string_view out = rest_.substr(0, length);
+        rest_.remove_prefix(length + 1);
+        return out;
+    }
+
+    /// The attributes of a part; false if there is none.
+    bool part(Part& part) {
+        bool any = false;
+        for (std::string_view name = text(); !name.empty(); name = text()) {
+            any = true;
+            text();  // the type
+            const auto bytes = number<std::int32_t>();
+            if (bytes < 0 || static_cast<std::size_t>(bytes) > rest_.size()) {
+                fail(fmt::format("claims {} bytes for the attribute '{}' where {} are left", bytes, name,
+                                 rest_.size()));
+            }
+            HeaderReader value(rest_.substr(0, static_cast<std::size_t>(bytes)), file_);
+            rest_.remove_prefix(static_cast<std::size_t>(bytes));
+            value.attribute(name, part);
+        }
+        return any;
+    }
+
+    void check(const Part& part) const {
+        checkImageSize(part.width, part.height, size_, file_);
+        const auto width = static_cast<std::uint64_t>(part.width);
+        const auto height = static_cast<std::uint64_t>(part.height);
+        const bool known = part.compression < std::size(kBlockLines);
+        const std::uint64_t lines = known ? kBlockLines[part.compression] : 1;
+        const std::uint64_t most = times(size_, part.compression < kDwaa ? kMaxExpansion : kMaxDwaExpansion);
+        const std::uint64_t rowBytes = times(width, part.pixelBytes);
+        const std::uint64_t tile = times(times(part.tileWidth, part.tileHeight), part.pixelBytes);
+        const std::uint64_t block = std::max(tile, times(rowBytes, lines));
+        const std::uint64_t blocks = part.tileWidth > 0 && part.tileHeight > 0
+                                         ? times((width + part.tileWidth - 1) / part.tileWidth,
+                                                 (height + part.tileHeight - 1) / part.tileHeight)
+                                         : (height + lines - 1) / lines;
+        if (times(rowBytes, height) > most || block > std::max(most, kFineBlockBytes) ||
+            times(blocks, sizeof(std::uint64_t)) > size_) {
+            fail(fmt::format("claims {} x {} pixels of {} bytes but is only {} bytes long", width, height,
+                             part.pixelBytes, size_));
+        }
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& problem) const {
+        throw InputError(file_, "", "is not a readable OpenEXR image: it " + problem,
+                         "expected a complete file");
+    }
+
+    void attribute(std::string_view name, Part& part) {
+        if (name == "dataWindow") {
+            const auto left = number<std::int32_t>(), top = number<std::int32_t>();
+            const auto right = number<std::int32_t>(), bottom = number<std::int32_t>();
+            part.width = std::int64_t{right} - left + 1;
+            part.height = std::int64_t{bottom} - top + 1;
+        } else if (name == "compression") {
+            part.compression = number<std::uint8_t>();
+        } else if (name == "tiles") {
+            part.tileWidth = number<std::uint32_t>();
+            part.tileHeight = number<std::uint32_t>();
+        } else if (name == "channels") {
+            while (!text().empty()) {
+                constexpr std::int32_t kHalf = 1;
+                part.pixelBytes += number<std::int32_t>() == kHalf ? 2 : 4;
+                for (int i = 0; i < 3; ++i)  // linearity, and the distances between samples
+                    number<std::int32_t>();
+            }
+        }
+    }
+
+    std::string_view rest_;
+    std::size_t size_;
+    const std::string& file_;
+};
+
+}  // namespace
+
+void checkExrHeader(std::string_view bytes, const std::string& file) {
+    HeaderReader reader(bytes, file);
+    if (bytes.size() < 8 || reader.number<std::uint32_t>() != kMagic) return;
+    const bool several = (reader.number<std::uint32_t>() & kMultiPart) != 0;
+    Part part;
+    do {
+        part = {};
+        if (!reader.part(part)) break;
+        reader.check(part);
+    } while (several);
+}
+
+}  // namespace duolux
