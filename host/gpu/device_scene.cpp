@@ -1,9 +1,12 @@
 #include "host/gpu/device_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/bvh/tree_cache.h"
 #include "host/gpu/lights.h"
@@ -174,6 +177,16 @@ std::uint64_t DeviceScene::deviceBytes() const {
            lights.allocated() + (structure ? structure->allocated() : 0);
 }
 
+void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene) {
+    if (device.kind != DeviceKind::kGpu || bytes <= device.memoryBytes) return;
+    throw MachineError(
+        fmt::format("{}: {} triangles take {} MiB of device memory, but {} ({}) has {}; expected fewer "
+                    "triangles, or a device "
+                    "with more memory, as the cpu",
+                    scene.source.string(), scene.geometry.triangles.size(), (bytes >> 20) + 1, device.name,
+                    device.driver, device.memoryBytes >> 20));
+}
+
 DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice) {
     const Geometry& geometry = scene.geometry;
     const TransportTraits traits = analyseTransport(scene);
@@ -207,6 +220,13 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
             normals[2 * i + 1] = deviceNormals(geometry, pair.second, corners.turns[1]);
         }
     });
+    requireDeviceMemory(device.info(),
+                        trees.nodes.size() * sizeof(shared::WideNode) +
+                            pairs.size() * sizeof(shared::DevicePair) +
+                            normals.size() * sizeof(shared::DeviceNormals) +
+                            scene.materials.size() * sizeof(shared::DeviceMaterial) +
+                            table.lights.size() * sizeof(shared::DeviceLight),
+                        scene);
     using Use = BufferUse;
     const Use treeUse = tuning.layout == Layout::kStorage ? Use::kStorage : Use::kTexels;
     DeviceScene out{

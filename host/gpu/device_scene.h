@@ -41,6 +41,10 @@ struct DeviceScene {
     std::uint64_t deviceBytes() const;
 };
 
+/// Throws MachineError, with numbers, if so many bytes of a scene do not fit into the memory of a GPU. (A
+/// software driver's is the host's, whatever it says.)
+void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene);
+
 /// Builds the trees and uploads everything. Throws MachineError if it does not fit the device, and UsageError
 /// if that cannot do what is asked for.
 DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice = {});

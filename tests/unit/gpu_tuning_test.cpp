@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
+#include "host/gpu/device_scene.h"
 #include "host/gpu/tuning.h"
 
 namespace duolux {
@@ -111,6 +112,29 @@ TEST(Tuning, AnotherLayoutTakesWhatDoesNotFitUnlessOneIsAskedFor) {
     small.maxTexelBufferElements = 65536;
     EXPECT_EQ(layoutThatFits(small, Layout::kTexel, {}, kMebibyte), Layout::kTexel);
     EXPECT_EQ(layoutThatFits(small, Layout::kTexel, {}, kMebibyte + 16), Layout::kStorage);
+}
+
+TEST(DeviceMemory, OfAGpuMustHoldTheScene) {
+    DeviceInfo device;
+    device.kind = DeviceKind::kGpu;
+    device.name = "Card";
+    device.driver = "driver 1";
+    device.memoryBytes = std::uint64_t{8} << 30;
+    Scene scene;
+    scene.source = "big.obj";
+    scene.geometry.triangles.resize(7);
+    EXPECT_NO_THROW(requireDeviceMemory(device, device.memoryBytes, scene));
+    try {
+        requireDeviceMemory(device, device.memoryBytes + 1, scene);
+        ADD_FAILURE() << "expected MachineError";
+    } catch (const MachineError& e) {
+        EXPECT_STREQ(
+            e.what(),
+            "big.obj: 7 triangles take 8193 MiB of device memory, but Card (driver 1) has 8192; expected "
+            "fewer triangles, or a device with more memory, as the cpu");
+    }
+    device.kind = DeviceKind::kCpu;
+    EXPECT_NO_THROW(requireDeviceMemory(device, device.memoryBytes + 1, scene));
 }
 
 }  // namespace
