@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
 
 #include "host/app/commands.h"
 #include "host/app/machine_options.h"
 #include "host/base/error.h"
+#include "host/gpu/json.h"
 #include "host/vk/device.h"
 #include "shaders/shared/bvh_layout.h"
 
@@ -30,7 +33,27 @@ void printDevice(const DeviceInfo& device, bool chosen) {
     if (!device.unusable.empty()) fmt::print("     unusable               lacks {}\n", device.unusable);
 }
 
-void runDevices() {
+nlohmann::ordered_json devicesJson(const std::vector<DeviceInfo>& devices, const DeviceInfo* chosen) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const DeviceInfo& device : devices) {
+        nlohmann::ordered_json entry = {{"index", device.index}, {"chosen", &device == chosen}};
+        entry.update(toJson(device));
+        entry["vulkan"] =
+            fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(device.apiVersion),
+                        VK_API_VERSION_MINOR(device.apiVersion), VK_API_VERSION_PATCH(device.apiVersion));
+        entry["subgroup_size"] = device.subgroupSize;
+        entry["memory_bytes"] = device.memoryBytes;
+        entry["storage_buffer_bytes"] = device.maxStorageBufferRange;
+        entry["texel_buffer_texels"] = device.maxTexelBufferElements;
+        entry["most_triangle_pairs"] = device.maxTexelBufferElements / shared::kPairTexels;
+        entry["ray_queries"] = device.rayQueries;
+        entry["lacks"] = device.unusable;
+        list.push_back(std::move(entry));
+    }
+    return {{"version", 1}, {"devices", std::move(list)}};
+}
+
+void runDevices(bool json) {
     const std::vector<DeviceInfo> devices = findDevices();
     const DeviceInfo* chosen = nullptr;
     try {
@@ -38,17 +61,25 @@ void runDevices() {
     } catch (const MachineError&) {
         // None is usable: the list says why.
     }
-    for (const DeviceInfo& device : devices)
-        printDevice(device, &device == chosen);
+    if (json) {
+        fmt::print(
+            "{}\n",
+            devicesJson(devices, chosen).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+        for (const DeviceInfo& device : devices)
+            printDevice(device, &device == chosen);
+    }
     if (chosen == nullptr) throw MachineError("no usable Vulkan device");
-    fmt::print("\n* is used unless --device says otherwise.\n");
+    if (!json) fmt::print("\n* is used unless --device says otherwise.\n");
 }
 
 }  // namespace
 
 void addDevicesCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices, and which one would be used");
-    command->callback([] { runDevices(); });
+    const auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "As JSON, for scripts");
+    command->callback([json] { runDevices(*json); });
 }
 
 }  // namespace duolux

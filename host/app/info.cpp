@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,11 +10,13 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/info_json.h"
 #include "host/app/machine_options.h"
+#include "host/app/view_options.h"
 #include "host/base/printable.h"
 #include "host/base/utf8.h"
 #include "host/scene/energy.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 
 namespace duolux {
 
@@ -65,12 +66,6 @@ void printTable(const std::vector<std::vector<std::string>>& rows) {
     }
 }
 
-std::size_t memoryOf(const Geometry& geometry) {
-    return geometry.positions.size() * sizeof(glm::vec3) + geometry.triangles.size() * sizeof(glm::uvec3) +
-           geometry.materials.size() * sizeof(std::uint32_t) + geometry.normals.size() * sizeof(glm::vec3) +
-           geometry.normalIndices.size() * sizeof(glm::uvec3);
-}
-
 std::string describeEmission(const Emission& emission) {
     if (!emission.any()) return "-";
     return fmt::format("inv {}; vis {}{}", colour(emission.invisible), colour(emission.visible),
@@ -83,19 +78,15 @@ void printGeometry(const Scene& scene) {
     printField("triangles", withSeparators(geometry.triangles.size()));
     printField("vertices", withSeparators(geometry.positions.size()));
     if (!geometry.normals.empty()) {
-        const auto smooth = std::count_if(geometry.normalIndices.begin(), geometry.normalIndices.end(),
-                                          [](const glm::uvec3& n) { return n.x != Geometry::kNoNormal; });
         printField("smooth", fmt::format("{} triangles have shading normals",
-                                         withSeparators(static_cast<std::uint64_t>(smooth))));
+                                         withSeparators(smoothTriangles(geometry))));
     }
     printField("bounds", fmt::format("{}  to  {}", toText(bounds.lower), toText(bounds.upper)));
     printField("memory", fmt::format("{} of geometry on the host", bytes(memoryOf(geometry))));
 }
 
 void printView(const Scene& scene) {
-    const Camera& camera = scene.camera;
-    printField("camera", fmt::format("at {}  towards {}  up {}  vfov {:.6g}", toText(camera.position),
-                                     toText(camera.target), toText(camera.up), camera.vfov));
+    printField("camera", cameraJson(scene.camera));
     printField("picture",
                fmt::format("{}x{}, {} spp, {} bounces, seed {}", scene.render.width, scene.render.height,
                            scene.render.spp, scene.render.bounces, scene.render.seed));
@@ -112,9 +103,7 @@ void printLights(const Scene& scene) {
 }
 
 void printMaterials(const Scene& scene) {
-    std::vector<std::uint64_t> triangles(scene.materials.size(), 0);
-    for (const std::uint32_t material : scene.geometry.materials)
-        ++triangles[material];
+    const std::vector<std::size_t> triangles = trianglesOfMaterials(scene);
     std::vector<std::vector<std::string>> rows{
         {"material", "triangles", "diffuse", "sides", "emission", "reflectance"}};
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -130,24 +119,12 @@ void printMaterials(const Scene& scene) {
 
 /// Which material, in which channel, returns the most of the light that meets it.
 void printEnergy(const Scene& scene) {
-    constexpr std::array<std::string_view, 3> kChannels{"red", "green", "blue"};
-    float largest = -1.0f;
-    std::string where;
-    bool mayGrow = false;
-    for (const Material& material : scene.materials) {
-        const MaterialEnergy energy = materialEnergy(scene.reflectanceOf(material), material.diffuse);
-        for (int i = 0; i < 3; ++i) {
-            if (energy.factor[i] <= largest) continue;
-            largest = energy.factor[i];
-            where = fmt::format("{} in {}", inQuotes(material.name), kChannels[static_cast<std::size_t>(i)]);
-        }
-        mayGrow = mayGrow || energy.mayGrow();
-    }
+    const LargestFactor largest = largestFactor(scene);
     fmt::print("\n");
     printField("energy", fmt::format("mean albedo {} by area", colour(meanAlbedo(scene))));
-    printField("",
-               fmt::format("one interaction returns at most {:.4g} of what arrives ({})", largest, where));
-    if (mayGrow) {
+    printField("", fmt::format("one interaction returns at most {:.4g} of what arrives ({} in {})",
+                               largest.factor, inQuotes(largest.material), largest.channel));
+    if (largest.mayGrow) {
         printField("", "that is as much as arrives or more: the series of bounces may grow without end,");
         printField("", fmt::format("and the picture is that of a stated number of bounces (here {})",
                                    scene.render.bounces));
@@ -172,10 +149,24 @@ void printInfo(const Scene& scene) {
 void addInfoCommand(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("info", "Show what a scene file holds: triangles, materials, lights, energy");
-    auto path = std::make_shared<std::string>();
-    command->add_option("SCENE", *path, "An .obj or .json scene")->required();
+    struct Options {
+        std::string scene;
+        ViewOptions view;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    command->add_option("SCENE", options->scene, "An .obj or .json scene")->required();
+    addViewOptions(*command, options->view);
     addThreadsOption(*command);
-    command->callback([path] { printInfo(loadScene(*path)); });
+    command->add_flag("--json", options->json, "As JSON, for scripts");
+    command->callback([options] {
+        const Scene scene = loadScene(options->scene, options->view.choices());
+        if (options->json) {
+            fmt::print("{}\n", infoJson(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        } else {
+            printInfo(scene);
+        }
+    });
 }
 
 }  // namespace duolux

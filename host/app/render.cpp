@@ -11,16 +11,17 @@
 #include <optional>
 
 #include "host/app/commands.h"
+#include "host/app/dark_picture.h"
 #include "host/app/film_images.h"
 #include "host/app/interrupt.h"
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
 #include "host/app/report.h"
 #include "host/app/tuning_options.h"
+#include "host/app/view_options.h"
 #include "host/base/error.h"
 #include "host/base/progress.h"
-#include "host/scene/hash.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 
 namespace duolux {
 
@@ -40,6 +41,7 @@ struct RenderOptions {
     std::optional<std::uint32_t> spp, bounces, seed;
     std::optional<double> timeLimit;
     TuningOptions tuning;
+    ViewOptions view;
     float exposure = 0.0f;
     bool quiet = false;
 };
@@ -62,19 +64,21 @@ struct Overrides {
     std::optional<Integrator> integrator;
     std::optional<SampleRange> range;
 
+    /// What the rest of the scene depends on.
+    SceneChoices choices(const RenderOptions& options) const {
+        SceneChoices choices = options.view.choices();
+        choices.size = size;
+        choices.reflectance = reflectance;
+        choices.bounces = options.bounces;
+        return choices;
+    }
+
     void applyTo(Scene& scene, const RenderOptions& options) const {
         RenderSettings& settings = scene.render;
-        scene.reflectance = reflectance.value_or(scene.reflectance);
-        if (size) {
-            settings.width = size->x;
-            settings.height = size->y;
-        }
         settings.sampler = sampler.value_or(settings.sampler);
         settings.integrator = integrator.value_or(settings.integrator);
         settings.spp = options.spp.value_or(settings.spp);
-        settings.bounces = options.bounces.value_or(settings.bounces);
         settings.seed = options.seed.value_or(settings.seed);
-        if (reflectance) scene.hash = hashScene(scene);
     }
 };
 
@@ -223,10 +227,11 @@ void runRender(const RenderOptions& options) {
     // A checkpoint may take the place of the one that the render goes on from.
     checkOutputs(files, {options.scene, options.resume == options.checkpoint ? "" : options.resume});
     const Overrides overrides = parseOverrides(options);
+    const SceneChoices choices = overrides.choices(options);
     catchInterrupts();
 
     StageSeconds seconds;
-    Scene scene = loadScene(options.scene);
+    Scene scene = loadScene(options.scene, choices);
     overrides.applyTo(scene, options);
     for (const std::string& warning : scene.warnings)
         warn(warning);
@@ -265,7 +270,13 @@ void runRender(const RenderOptions& options) {
     const RenderOutput output = renderWhatCanBe(device, scene, control, failure);
     progress.finish();
 
-    for (const std::string& warning : resultWarnings(scene, control, output, failure.has_value())) {
+    std::vector<std::string> warnings = resultWarnings(scene, control, output, failure.has_value());
+    // Of less than a sample of every pixel there is nothing to say.
+    if (!failure && output.film.totalSamples() + output.film.lightPaths() >= output.film.samples().size()) {
+        const std::string dark = darkPictureWarning(scene, output.film.rows(), options.exposure);
+        if (!dark.empty()) warnings.push_back(dark);
+    }
+    for (const std::string& warning : warnings) {
         warn(warning);
         scene.warnings.push_back(warning);
     }
@@ -336,9 +347,11 @@ void addRenderCommand(CLI::App& app) {
         ->type_name("WIDTHxHEIGHT");
     command
         ->add_option("--bounces", options->bounces,
-                     "Largest number of scattering events on a path (default: the scene's, or 16)")
+                     "Largest number of scattering events on a path (default: the scene's, or 16; 4 "
+                     "where light may grow with every bounce, as in shadowless)")
         ->type_name("N")
         ->check(wholeNumber(0, 65535));
+    addViewOptions(*command, options->view);
     command->add_option("--seed", options->seed, "Seed of the random numbers (default: the scene's, or 1)")
         ->type_name("N")
         ->check(wholeNumber(0, 0xffffffff));

@@ -16,7 +16,7 @@
 #include "host/render/path_kernel.h"
 #include "host/render/pixel_order.h"
 #include "host/render/render.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 
 namespace duolux {
 

@@ -16,7 +16,7 @@
 #include "host/gl/context.h"
 #include "host/gl/draw.h"
 #include "host/gl/opengl.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 
 namespace duolux {
 

@@ -23,7 +23,7 @@
 #include "host/peers/embree_path_tracer.h"
 #include "host/peers/embree_scene.h"
 #include "host/render/render.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 
 namespace {
 

@@ -27,6 +27,10 @@ bool MaterialEnergy::mayGrow() const {
     return recurs && glm::any(glm::greaterThanEqual(factor, glm::vec3(1.0f)));
 }
 
+bool MaterialEnergy::grows() const {
+    return recurs && glm::any(glm::greaterThan(factor, glm::vec3(1.0f)));
+}
+
 MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo) {
     MaterialEnergy energy;
     const LightMatrix& o = reflectance.opaque;
@@ -56,6 +60,17 @@ EmitterSummary summariseEmitters(const Scene& scene) {
         summary.visiblePower += sides * glm::pi<double>() * area * glm::dvec3(emission.visible);
     }
     return summary;
+}
+
+bool seriesMayGrow(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const std::uint32_t material : scene.geometry.materials)
+        used[material] = true;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        if (used[i] && materialEnergy(scene.reflectanceOf(material), material.diffuse).grows()) return true;
+    }
+    return false;
 }
 
 glm::dvec3 meanAlbedo(const Scene& scene) {

@@ -19,6 +19,9 @@ struct MaterialEnergy {
 
     /// The infinite series of bounces may have no sum.
     bool mayGrow() const;
+
+    /// The terms of the series may become larger and larger.
+    bool grows() const;
 };
 
 MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo);
@@ -31,6 +34,9 @@ struct EmitterSummary {
     glm::dvec3 visiblePower{0.0};
 };
 EmitterSummary summariseEmitters(const Scene& scene);
+
+/// Some surface may make the terms of the series of bounces larger and larger.
+bool seriesMayGrow(const Scene& scene);
 
 /// Mean albedo over the area of all triangles.
 glm::dvec3 meanAlbedo(const Scene& scene);

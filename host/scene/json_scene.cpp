@@ -14,7 +14,6 @@
 
 #include "host/base/printable.h"
 #include "host/scene/compose.h"
-#include "host/scene/frame_camera.h"
 #include "host/scene/json_node.h"
 #include "host/scene/json_surface.h"
 #include "host/scene/json_text.h"
@@ -43,28 +42,18 @@ double sineBetween(const glm::vec3& a, const glm::vec3& b) {
     return lengths > 0.0 ? glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b))) / lengths : 0.0;
 }
 
-Camera readCamera(const JsonNode& node) {
-    constexpr double kSmallestSine = 1e-4;
+CameraChoice readCamera(const JsonNode& node) {
     node.expectKeys({"position", "target", "up", "vfov"});
-    Camera camera;
-    camera.position = readPoint(node.require("position", pointRemedy()));
-    camera.target = readPoint(node.require("target", pointRemedy()));
-    const std::optional<JsonNode> up = node.find("up");
-    if (up) camera.up = readPoint(*up);
+    CameraChoice camera;
+    if (const auto position = node.find("position")) camera.position = readPoint(*position);
+    if (const auto target = node.find("target")) camera.target = readPoint(*target);
+    if (const auto up = node.find("up")) camera.up = readPoint(*up);
     if (const auto vfov = node.find("vfov")) {
         const char* const remedy = "expected the full vertical angle in degrees, between 0 and 180";
         camera.vfov = vfov->number(0.0f, 180.0f, remedy);
-        if (camera.vfov <= 0.0f || camera.vfov >= 180.0f) vfov->failValue(remedy);
+        if (*camera.vfov <= 0.0f || *camera.vfov >= 180.0f) vfov->failValue(remedy);
     }
-    if (camera.position == camera.target) {
-        node.fail("position and target are the same", "expected a target to look at");
-    }
-    if (sineBetween(camera.target - camera.position, camera.up) < kSmallestSine) {
-        const std::string problem =
-            camera.up == glm::vec3(0.0f) ? "up has no direction" : "up is along the view";
-        node.fail(up ? problem : "up is missing, and (0, 1, 0) is along the view",
-                  "expected a direction across the line from position to target");
-    }
+    if (const auto wrong = camera.contradiction()) node.fail(wrong->problem, wrong->remedy);
     return camera;
 }
 
@@ -205,7 +194,7 @@ void readLight(const JsonNode& node, Scene& scene) {
 
 }  // namespace
 
-JsonScene readJsonScene(const fs::path& path) {
+SceneFile readJsonScene(const fs::path& path) {
     const nlohmann::json document = parseJsonFile(path);
     const JsonNode root(document, path);
     root.expectKeys(
@@ -214,18 +203,17 @@ JsonScene readJsonScene(const fs::path& path) {
 
     Scene scene;
     scene.source = path;
-    const auto camera = root.find("camera");
-    if (camera) scene.camera = readCamera(*camera);
+    CameraChoice camera;
+    if (const auto node = root.find("camera")) camera = readCamera(*node);
     if (const auto film = root.find("film")) readFilm(*film, scene.render);
-    if (const auto render = root.find("render")) readRender(*render, scene.render);
+    const auto render = root.find("render");
+    if (render) readRender(*render, scene.render);
     if (const auto display = root.find("display")) scene.display = readDisplay(*display);
     const auto reflectance = root.find("reflectance");
     scene.reflectance = reflectance ? readReflectance(*reflectance) : *presetReflectance("global");
     if (const auto objects = root.find("objects")) readObjects(*objects, scene);
     if (const auto materials = root.find("materials")) readMaterials(*materials, scene);
-    const bool hasMeshes = !scene.geometry.triangles.empty();
-    if (!camera && hasMeshes)
-        scene.camera = frameCamera(scene);  // a luminaire given apart may be out of the picture
+    const std::size_t meshTriangles = scene.geometry.triangles.size();
     const auto lights = root.find("lights");
     if (lights) {
         for (const JsonNode& light : lights->elements("expected an array of lights"))
@@ -234,8 +222,8 @@ JsonScene readJsonScene(const fs::path& path) {
     if (scene.geometry.triangles.empty()) {
         root.fail("has no triangles with area", "expected \"objects\" with meshes, or \"lights\"");
     }
-    if (!camera && !hasMeshes) scene.camera = frameCamera(scene);
-    return {std::move(scene), lights.has_value()};
+    const std::size_t framed = meshTriangles > 0 ? meshTriangles : scene.geometry.triangles.size();
+    return {std::move(scene), camera, framed, lights.has_value(), render && render->find("bounces")};
 }
 
 }  // namespace duolux

@@ -1,18 +1,24 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
+#include "host/scene/camera_choice.h"
 #include "host/scene/scene.h"
 
 namespace duolux {
 
-struct JsonScene {
-    Scene scene;     ///< complete but for the hash
-    bool hasLights;  ///< it says what "lights" there are, be it none
+/// What a scene file says.
+struct SceneFile {
+    Scene scene;                  ///< complete but for camera, hash and what is not said
+    CameraChoice camera;          ///< what it says of it
+    std::size_t framedTriangles;  ///< the first of them are what a camera should show
+    bool hasLights;               ///< it says what "lights" there are, be it none
+    bool hasBounces;              ///< it says how many bounces
 };
 
-/// Reads the JSON scene format and the meshes it names. Without "camera" one is framed around the meshes.
-/// Throws InputError.
-JsonScene readJsonScene(const std::filesystem::path& path);
+/// Reads the JSON scene format and the meshes it names. Luminaires given apart from meshes may be out of the
+/// picture. Throws InputError.
+SceneFile readJsonScene(const std::filesystem::path& path);
 
 }  // namespace duolux

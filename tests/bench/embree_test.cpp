@@ -9,7 +9,7 @@
 #include "host/bench/trace_kernel.h"
 #include "host/peers/embree_path_tracer.h"
 #include "host/peers/embree_scene.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 #include "tests/reference/tracer.h"
 #include "tests/support/agreement.h"
 #include "tests/support/cornell.h"

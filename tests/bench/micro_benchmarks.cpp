@@ -11,7 +11,7 @@
 #include "host/bvh/collapse.h"
 #include "host/bvh/wide_bvh.h"
 #include "host/film/film.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "host/base/temporary_folder.h"
 #include "host/bench/builtin_scenes.h"
 #include "host/bench/trace_kernel.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 #include "tests/reference/triangles.h"
 #include "tests/support/device.h"
 #include "tests/support/tunings.h"

@@ -8,7 +8,7 @@
 
 #include "host/base/temporary_folder.h"
 #include "host/render/render.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 #include "host/scene/two_spheres.h"
 #include "tests/statistical/films.h"
 #include "tests/statistical/renders.h"

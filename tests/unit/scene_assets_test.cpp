@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "host/scene/load.h"
+#include "host/view/load.h"
 #include "tests/unit/scene_files.h"
 
 namespace duolux::test {

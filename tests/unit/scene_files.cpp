@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "host/base/error.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 
 /// Lets failures of vector comparisons be read.
 namespace glm {

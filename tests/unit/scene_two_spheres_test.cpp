@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/scene/icosphere.h"
-#include "host/scene/load.h"
+#include "host/view/load.h"
 #include "host/scene/two_spheres.h"
 #include "tests/unit/scene_files.h"
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "host/view/load.h"
 #include "tests/unit/scene_files.h"
 
 namespace duolux::test {
@@ -30,9 +31,17 @@ class LightTest : public SceneFiles {
         }
     }
 
-    /// Irradiance of a small patch at `point` that faces the light, by subdividing the light.
-    static float radianceOfWhite(const Scene& scene, const glm::vec3& point) {
+    /// Of a small patch in the middle of the view, as far as the middle of the scene, that faces the light,
+    /// by subdividing the light.
+    static float radianceOfWhite(const Scene& scene) {
         const Geometry& geometry = scene.geometry;
+        Geometry seen = geometry;
+        seen.triangles.resize(seen.triangles.size() - 2);
+        const Bounds bounds = boundsOf(seen);
+        const Camera& camera = scene.camera;
+        const glm::vec3 forward = glm::normalize(camera.target - camera.position);
+        const glm::vec3 middle = 0.5f * (bounds.lower + bounds.upper) - camera.position;
+        const glm::vec3 point = camera.position + glm::dot(middle, forward) * forward;
         const glm::uvec3 t = geometry.triangles[geometry.triangles.size() - 2];
         const glm::vec3 origin = geometry.positions[t.x];
         const glm::vec3 edge1 = geometry.positions[t.y] - origin;
@@ -61,8 +70,8 @@ TEST_F(LightTest, IsAddedToADarkObjWithAWarning) {
     const Scene scene = loadObj(kTriangleObj);
     ASSERT_EQ(scene.geometry.triangles.size(), 3u);
     expectDefaultLight(scene);
-    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("default luminaire")));
-    EXPECT_NEAR(radianceOfWhite(scene, {0.5f, 0.5f, 0.0f}), 0.8f, 0.04f);
+    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("nothing emits light: a lamp is added")));
+    EXPECT_NEAR(radianceOfWhite(scene), 0.8f, 0.04f);
 }
 
 TEST_F(LightTest, LooksTheSameAtEveryScale) {
@@ -70,8 +79,7 @@ TEST_F(LightTest, LooksTheSameAtEveryScale) {
         const std::string s(size);
         const Scene scene = loadObj("v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nf 1 2 3\n");
         expectDefaultLight(scene);
-        const float half = 0.5f * std::stof(s);
-        EXPECT_NEAR(radianceOfWhite(scene, {half, half, 0.0f}), 0.8f, 0.04f);
+        EXPECT_NEAR(radianceOfWhite(scene), 0.8f, 0.04f);
     }
 }
 
@@ -103,6 +111,60 @@ TEST_F(LightTest, JsonWithoutLightsGetsOneBehindItsCamera) {
             std::string(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "camera": )") + camera + "}");
         ASSERT_EQ(scene.geometry.triangles.size(), 3u);
         expectDefaultLight(scene);
+    }
+}
+
+/// A plane of 2 x 2 and a small lamp beside it, of radiance `radiance`, which faces it.
+std::string planeAndLamp(const char* radiance) {
+    return std::string("mtllib m.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\nusemtl ") +
+           radiance + "\nv 0 1 0\nv .1 1 0\nv .1 1 .1\nv 0 1 .1\nf 5 6 7 8\n";
+}
+
+TEST_F(LightTest, EmittersThatLightNearlyNothingDoNotCount) {
+    write("m.mtl", "newmtl dim\nKe 0.01 0 0\nnewmtl bright\nKe 200 200 200\n");
+    const Scene dim = loadObj(planeAndLamp("dim"));
+    expectDefaultLight(dim);
+    EXPECT_THAT(dim.warnings, testing::ElementsAre(HasSubstr("less than 5 % of white")));
+    const Scene bright = loadObj(planeAndLamp("bright"));
+    EXPECT_EQ(bright.geometry.triangles.size(), 4u);
+    EXPECT_THAT(bright.warnings, IsEmpty());
+}
+
+TEST_F(LightTest, IsAddedOrLeftOutAsTheCallerSays) {
+    write("m.mtl", "newmtl dim\nKe 0.01 0 0\nnewmtl bright\nKe 200 200 200\n");
+    const auto file = write("mesh.obj", planeAndLamp("bright"));
+    expectDefaultLight(loadScene(file, {.lamp = Lamp::kAlways}));
+    write("mesh.obj", planeAndLamp("dim"));
+    const Scene none = loadScene(file, {.lamp = Lamp::kNever});
+    EXPECT_EQ(none.geometry.triangles.size(), 4u);
+    const Scene dark = loadScene(write("dark.obj", kTriangleObj), {.lamp = Lamp::kNever});
+    EXPECT_EQ(dark.geometry.triangles.size(), 1u);
+    EXPECT_THAT(dark.warnings, testing::ElementsAre(HasSubstr("the picture will be black")));
+}
+
+TEST_F(LightTest, StandsInsideAClosedRoomOutOfView) {
+    const Scene scene = loadObj(
+        "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\nv -2 2 -2\nv 2 2 -2\nv 2 2 2\nv -2 2 2\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n");
+    const Geometry& geometry = scene.geometry;
+    ASSERT_EQ(geometry.triangles.size(), 14u);
+    const auto inside = [](const glm::vec3& p) {
+        return glm::all(glm::lessThan(glm::abs(p - glm::vec3(0, 1, 0)), glm::vec3(2, 1, 2)));
+    };
+    const Camera& camera = scene.camera;
+    EXPECT_TRUE(inside(camera.position));
+    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const glm::vec3 up = glm::cross(right, forward);
+    const float tangent = std::tan(glm::radians(camera.vfov) / 2);
+    for (std::size_t i = 12; i < 14; ++i) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const glm::vec3 position = geometry.positions[geometry.triangles[i][corner]];
+            EXPECT_TRUE(inside(position));
+            const glm::vec3 offset = position - camera.position;
+            const float reach = tangent * glm::dot(offset, forward);
+            EXPECT_TRUE(std::abs(glm::dot(offset, right)) > reach || std::abs(glm::dot(offset, up)) > reach);
+        }
     }
 }
 

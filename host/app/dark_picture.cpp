@@ -1,0 +1,114 @@
+#include "host/app/dark_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "host/view/darkness.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr double kLitPart = 0.01;
+constexpr float kDarkestGrey = 1.0f / (255.0f * 12.92f);  // 1 of 255, decoded from sRGB
+
+std::string point(const glm::vec3& p) {
+    return fmt::format("{:.6g},{:.6g},{:.6g}", p.x, p.y, p.z);
+}
+
+std::string describe(const DarkReason& reason) {
+    const std::string position = "--camera-position " + point(reason.better.position);
+    const std::string lookAt = "--look-at " + point(reason.better.target);
+    switch (reason.darkness) {
+        case Darkness::kNothingEmits:
+            return "nothing emits light; --lamp adds a lamp";
+        case Darkness::kLooksPast:
+            return fmt::format(
+                "the camera looks past the scene, which fills {:.1f} % of the picture; try {}, or "
+                "a smaller --vfov",
+                100.0f * reason.filled, lookAt);
+        case Darkness::kOnlyEmitters:
+            return "the camera sees only emitters, and they emit no visible light";
+        case Darkness::kNoBounces:
+            return "with 0 bounces only emitters show, and what the camera sees emits no visible light; try "
+                   "more "
+                   "--bounces";
+        case Darkness::kNothingVisible:
+            return "no reflectance turns what is emitted into visible light; the second row of \"opaque\" "
+                   "does";
+        case Darkness::kBlackSurfaces:
+            return fmt::format("what the camera sees (material \"{}\") is black, and reflects nothing",
+                               reason.material);
+        case Darkness::kBehind:
+            return fmt::format(
+                "the camera is behind a wall or inside of an object: it sees sides that no light "
+                "reaches of surfaces (material \"{}\") whose other sides are lit; try {} {}",
+                reason.material, position, lookAt);
+        case Darkness::kFacingAway:
+            return fmt::format(
+                "the emitters (material \"{}\") face away from what the camera sees: they shine from "
+                "their front side, from which corners run counter-clockwise; turn them, or give "
+                "their emission \"sides\": \"both\" in a JSON scene, or add --lamp",
+                reason.material);
+        case Darkness::kEnclosed:
+            return fmt::format(
+                "no light reaches what the camera sees (material \"{}\"): other surfaces are between "
+                "it and the emitters; try --lamp, or {} {}",
+                reason.material, position, lookAt);
+        case Darkness::kUnknown:
+            break;
+    }
+    return "little light reaches what the camera sees; try --lamp, or more --spp";
+}
+
+/// The brightest value that at least `part` of the pixels reach, by their brightest channel, rounded down to
+/// half a stop; 0 if that is below 2^-30.
+float reachedBy(double part, const ImageRows& rows, glm::vec2 display) {
+    constexpr int kBins = 160, kZero = 60;  // half stops
+    std::array<std::uint64_t, kBins> counts{};
+    std::vector<glm::vec3> invisible(rows.width), visible(rows.width);
+    for (std::uint32_t row = 0; row < rows.height; ++row) {
+        rows.read(row, invisible, visible);
+        for (std::size_t i = 0; i < rows.width; ++i) {
+            const glm::vec3 c = display.x * invisible[i] + display.y * visible[i];
+            const float brightest = std::max({c.x, c.y, c.z});
+            if (!(brightest > 0x1p-30f)) continue;
+            const int bin = static_cast<int>(std::floor(2.0f * std::log2(brightest))) + kZero;
+            ++counts[static_cast<std::size_t>(std::clamp(bin, 0, kBins - 1))];
+        }
+    }
+    const double wanted = part * static_cast<double>(rows.width) * static_cast<double>(rows.height);
+    std::uint64_t reached = 0;
+    for (int bin = kBins - 1; bin >= 0; --bin) {
+        reached += counts[static_cast<std::size_t>(bin)];
+        if (reached > 0 && static_cast<double>(reached) >= wanted)
+            return std::exp2(0.5f * static_cast<float>(bin - kZero));
+    }
+    return 0.0f;
+}
+
+}  // namespace
+
+std::string darkPictureWarning(const Scene& scene, const ImageRows& rows, float exposure) {
+    const float bright = reachedBy(kLitPart, rows, scene.display);
+    if (bright * std::exp2(exposure) >= kDarkestGrey) return {};
+    const std::string dark = fmt::format("less than {:g} % of the picture is lit: ", 100.0 * kLitPart);
+    if (bright > 0.0f) {
+        return dark + fmt::format("all of it is very dark; try --exposure {:.0f}",
+                                  std::ceil(std::log2(0.5f / bright)));
+    }
+    const DarkReason reason = whyDark(scene);
+    if (reason.darkness == Darkness::kNothingEmits && !scene.warnings.empty()) {
+        const bool said = std::any_of(scene.warnings.begin(), scene.warnings.end(), [](const std::string& w) {
+            return w.starts_with("nothing emits light");
+        });
+        if (said) return {};
+    }
+    return dark + describe(reason);
+}
+
+}  // namespace duolux

@@ -1,0 +1,147 @@
+#include "host/app/info_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+#include "host/scene/energy.h"
+
+namespace duolux {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The shortest decimal number that is this float.
+double number(float value) {
+    return std::strtod(fmt::format("{}", value).c_str(), nullptr);
+}
+
+Json toJson(const glm::vec3& v) {
+    return {number(v.x), number(v.y), number(v.z)};
+}
+
+Json toJson(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Json toJson(const Camera& camera) {
+    return {{"position", toJson(camera.position)},
+            {"target", toJson(camera.target)},
+            {"up", toJson(camera.up)},
+            {"vfov", number(camera.vfov)}};
+}
+
+const char* nameOf(Sides sides) {
+    return sides == Sides::kBoth ? "both" : "front";
+}
+
+Json materialsOf(const Scene& scene) {
+    const std::vector<std::size_t> triangles = trianglesOfMaterials(scene);
+    Json materials = Json::array();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        Json entry = {{"name", material.name},
+                      {"triangles", triangles[i]},
+                      {"diffuse", toJson(material.diffuse)},
+                      {"sides", nameOf(material.sides)}};
+        entry["emission"] = nullptr;
+        if (material.emission.any()) {
+            entry["emission"] = {{"invisible", toJson(material.emission.invisible)},
+                                 {"visible", toJson(material.emission.visible)},
+                                 {"sides", nameOf(material.emission.sides)}};
+        }
+        entry["reflectance"] = nullptr;
+        if (material.reflectance) entry["reflectance"] = describeReflectance(*material.reflectance);
+        materials.push_back(std::move(entry));
+    }
+    return materials;
+}
+
+}  // namespace
+
+std::string cameraJson(const Camera& camera) {
+    std::string text;
+    for (const char c : toJson(camera).dump()) {
+        text += c;
+        if (c == ',' || c == ':') text += ' ';
+    }
+    return text;
+}
+
+std::size_t memoryOf(const Geometry& geometry) {
+    return geometry.positions.size() * sizeof(glm::vec3) + geometry.triangles.size() * sizeof(glm::uvec3) +
+           geometry.materials.size() * sizeof(std::uint32_t) + geometry.normals.size() * sizeof(glm::vec3) +
+           geometry.normalIndices.size() * sizeof(glm::uvec3);
+}
+
+std::size_t smoothTriangles(const Geometry& geometry) {
+    return static_cast<std::size_t>(
+        std::count_if(geometry.normalIndices.begin(), geometry.normalIndices.end(),
+                      [](const glm::uvec3& n) { return n.x != Geometry::kNoNormal; }));
+}
+
+std::vector<std::size_t> trianglesOfMaterials(const Scene& scene) {
+    std::vector<std::size_t> triangles(scene.materials.size(), 0);
+    for (const std::uint32_t material : scene.geometry.materials)
+        ++triangles[material];
+    return triangles;
+}
+
+LargestFactor largestFactor(const Scene& scene) {
+    constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
+    LargestFactor largest;
+    for (const Material& material : scene.materials) {
+        const MaterialEnergy energy = materialEnergy(scene.reflectanceOf(material), material.diffuse);
+        for (int i = 0; i < 3; ++i) {
+            if (energy.factor[i] <= largest.factor) continue;
+            largest.factor = energy.factor[i];
+            largest.material = material.name;
+            largest.channel = kChannels[static_cast<std::size_t>(i)];
+        }
+        largest.mayGrow = largest.mayGrow || energy.mayGrow();
+    }
+    return largest;
+}
+
+Json infoJson(const Scene& scene) {
+    const Geometry& geometry = scene.geometry;
+    const Bounds bounds = boundsOf(geometry);
+    const EmitterSummary lights = summariseEmitters(scene);
+    const LargestFactor largest = largestFactor(scene);
+    Json info;
+    info["version"] = 1;
+    info["scene"] = scene.source.string();
+    info["hash"] = scene.hash;
+    info["triangles"] = geometry.triangles.size();
+    info["vertices"] = geometry.positions.size();
+    info["smooth_triangles"] = smoothTriangles(geometry);
+    info["bounds"] = {{"lower", toJson(bounds.lower)}, {"upper", toJson(bounds.upper)}};
+    info["geometry_bytes"] = memoryOf(geometry);
+    info["camera"] = toJson(scene.camera);
+    info["film"] = {{"width", scene.render.width}, {"height", scene.render.height}};
+    info["render"] = {{"spp", scene.render.spp},
+                      {"bounces", scene.render.bounces},
+                      {"seed", scene.render.seed},
+                      {"sampler", nameOf(scene.render.sampler)},
+                      {"integrator", nameOf(scene.render.integrator)}};
+    info["display"] = {number(scene.display.x), number(scene.display.y)};
+    info["reflectance"] = describeReflectance(scene.reflectance);
+    info["lights"] = {
+        {"triangles", lights.triangles},
+        {"area", lights.area},
+        {"power", {{"invisible", toJson(lights.invisiblePower)}, {"visible", toJson(lights.visiblePower)}}}};
+    info["materials"] = materialsOf(scene);
+    info["energy"] = {{"mean_albedo", toJson(meanAlbedo(scene))},
+                      {"largest_factor", number(largest.factor)},
+                      {"material", largest.material},
+                      {"channel", largest.channel},
+                      {"may_grow", largest.mayGrow}};
+    info["warnings"] = scene.warnings;
+    return info;
+}
+
+}  // namespace duolux

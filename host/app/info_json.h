@@ -1,0 +1,33 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/scene/scene.h"
+
+namespace duolux {
+
+/// All that `duolux info` tells of a scene, for scripts.
+nlohmann::ordered_json infoJson(const Scene& scene);
+
+/// A camera as scene files give it, on one line.
+std::string cameraJson(const Camera& camera);
+
+/// Bytes of geometry on the host.
+std::size_t memoryOf(const Geometry& geometry);
+
+/// Triangles that have shading normals.
+std::size_t smoothTriangles(const Geometry& geometry);
+
+/// Triangles of each material.
+std::vector<std::size_t> trianglesOfMaterials(const Scene& scene);
+
+/// The material and the channel that return the most of the light that meets them.
+struct LargestFactor {
+    std::string material, channel;
+    float factor = -1.0f;
+    bool mayGrow = false;  ///< of any material the series of bounces may have no sum
+};
+LargestFactor largestFactor(const Scene& scene);
+
+}  // namespace duolux

@@ -1,0 +1,20 @@
+#include "host/scene/camera_choice.h"
+
+namespace duolux {
+
+std::optional<CameraChoice::Contradiction> CameraChoice::contradiction() const {
+    constexpr double kSmallestSine = 1e-4;
+    const char* const across = "expected a direction across the line from position to target";
+    if (up && *up == glm::dvec3(0.0)) return Contradiction{"up has no direction", across};
+    if (!position || !target) return std::nullopt;
+    const glm::dvec3 view = *target - *position;
+    if (view == glm::dvec3(0.0)) {
+        return Contradiction{"position and target are the same", "expected a target to look at"};
+    }
+    if (!up) return std::nullopt;
+    const double sine = glm::length(glm::cross(view, *up)) / (glm::length(view) * glm::length(*up));
+    if (sine >= kSmallestSine) return std::nullopt;
+    return Contradiction{"up is along the view", across};
+}
+
+}  // namespace duolux

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+namespace duolux {
+
+/// What is said of a camera, in the coordinates of the scene's file; the rest is chosen. Vectors are finite,
+/// `up` is not 0, `vfov` is in (0, 180).
+struct CameraChoice {
+    std::optional<glm::dvec3> position, target, up;
+    std::optional<float> vfov;
+
+    /// With what `other` says in place of what this says.
+    CameraChoice overriddenBy(const CameraChoice& other) const {
+        return {other.position ? other.position : position, other.target ? other.target : target,
+                other.up ? other.up : up, other.vfov ? other.vfov : vfov};
+    }
+    bool complete() const { return position && target; }
+
+    struct Contradiction {
+        const char *problem, *remedy;
+    };
+    /// Nothing if all is well.
+    std::optional<Contradiction> contradiction() const;
+};
+
+}  // namespace duolux

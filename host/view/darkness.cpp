@@ -1,0 +1,136 @@
+#include "host/view/darkness.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "host/view/default_light.h"
+#include "host/view/frame_camera.h"
+#include "host/view/look_through.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr float kFewest = 0.02f;  // of the picture
+constexpr int kPaths = 4;
+
+bool any(const glm::vec3& v) {
+    return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
+}
+
+/// What the camera sees, and what is there.
+class Inspection {
+  public:
+    explicit Inspection(const Scene& scene)
+        : scene_(scene), surface_(scene, scene.geometry.triangles.size()) {
+        lookThrough(scene.camera, aspectOf(scene.render), surface_,
+                    [&](const SurfacePoint& point, std::uint32_t) { seen_.push_back(point); });
+    }
+
+    DarkReason reason() const {
+        DarkReason reason{Darkness::kUnknown, mostSeen(), filled(), automaticCamera()};
+        reason.darkness = darkness();
+        if (reason.darkness == Darkness::kFacingAway) reason.material = emitter();
+        return reason;
+    }
+
+  private:
+    float filled() const { return static_cast<float>(seen_.size()) / (kLooksAcross * kLooksAcross); }
+
+    const Material& materialOf(const SurfacePoint& point) const {
+        return surface_.materialOf(point.triangle);
+    }
+
+    bool emits(const SurfacePoint& point) const { return materialOf(point).emission.any(); }
+
+    std::string mostSeen() const {
+        std::map<std::string, int> counts;
+        for (const SurfacePoint& point : seen_)
+            ++counts[materialOf(point).name];
+        const auto most = std::max_element(counts.begin(), counts.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+        return most == counts.end() ? std::string() : most->first;
+    }
+
+    std::string emitter() const {
+        for (const std::uint32_t material : scene_.geometry.materials) {
+            if (scene_.materials[material].emission.any()) return scene_.materials[material].name;
+        }
+        return {};
+    }
+
+    Camera automaticCamera() const {
+        CameraChoice choice;
+        choice.up = glm::dvec3(scene_.camera.up);
+        const Illumination illumination(surface_);
+        return frameCamera(choice, surface_, ViewSamples(surface_, illumination), aspectOf(scene_.render));
+    }
+
+    /// What is emitted can become what the camera sees at some surface.
+    bool anythingBecomesVisible() const {
+        bool invisible = false, visible = false, fromInvisible = false, fromVisible = false;
+        for (const std::uint32_t index : scene_.geometry.materials) {
+            const Material& material = scene_.materials[index];
+            const LightMatrix& opaque = scene_.reflectanceOf(material).opaque;
+            invisible = invisible || any(material.emission.invisible);
+            visible = visible || any(material.emission.visible);
+            fromInvisible = fromInvisible || any(opaque.m10);
+            fromVisible = fromVisible || any(opaque.m11);
+        }
+        return (invisible && fromInvisible) || (visible && fromVisible);
+    }
+
+    template <typename Test>
+    bool nearlyAll(const Test& test) const {
+        const auto count = std::count_if(seen_.begin(), seen_.end(), test);
+        return static_cast<float>(count) >= 0.95f * static_cast<float>(seen_.size());
+    }
+
+    /// The mean of what white would show where the camera looks, or on the other sides of the same surfaces.
+    float onWhite(const Illumination& illumination, bool otherSide) const {
+        float sum = 0.0f;
+        for (std::size_t i = 0; i < seen_.size(); ++i) {
+            SurfacePoint point = seen_[i];
+            if (otherSide) point = {point.position, -point.normal, point.triangle, !point.front};
+            sum += illumination.onWhite(point, static_cast<std::uint32_t>(i + 1), kPaths);
+        }
+        return sum / static_cast<float>(seen_.size());
+    }
+
+    Darkness darkness() const {
+        if (!anyEmitter(scene_)) return Darkness::kNothingEmits;
+        if (filled() < kFewest) return Darkness::kLooksPast;
+        if (nearlyAll([&](const SurfacePoint& point) { return emits(point); }))
+            return Darkness::kOnlyEmitters;
+        if (scene_.render.bounces == 0) return Darkness::kNoBounces;
+        if (!anythingBecomesVisible()) return Darkness::kNothingVisible;
+        const auto dead = [&](const SurfacePoint& point) {
+            return !scatters(materialOf(point), point.front);
+        };
+        if (nearlyAll(dead)) {
+            const auto black = [&](const SurfacePoint& point) { return !scatters(materialOf(point), true); };
+            return nearlyAll(black) ? Darkness::kBlackSurfaces : Darkness::kBehind;
+        }
+        const Illumination illumination(surface_), bothSides(surface_, std::nullopt, true);
+        const float here = onWhite(illumination, false);
+        const float there = onWhite(illumination, true), turned = onWhite(bothSides, false);
+        // Several times as much as there is: the rest is leaks and noise.
+        constexpr float kMuchMore = 20.0f;
+        if (turned > kMuchMore * here && turned >= there) return Darkness::kFacingAway;
+        if (there > kMuchMore * here) return Darkness::kBehind;
+        return here > 0.0f ? Darkness::kUnknown : Darkness::kEnclosed;
+    }
+
+    const Scene& scene_;
+    Surface surface_;
+    std::vector<SurfacePoint> seen_;
+};
+
+}  // namespace
+
+DarkReason whyDark(const Scene& scene) {
+    return Inspection(scene).reason();
+}
+
+}  // namespace duolux

@@ -1,0 +1,234 @@
+#include "host/view/frame_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "host/base/parallel.h"
+#include "host/view/inside_views.h"
+#include "host/view/view_axes.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr float kDefaultVfov = 40.0f;
+constexpr double kMargin = 1.05;
+const glm::dvec3 kUp(0.0, 1.0, 0.0);
+
+/// Points that are in view if all of what is framed is: all corners, or those that lie farthest out in many
+/// directions.
+std::vector<glm::dvec3> cornersOf(const Surface& surface) {
+    std::vector<glm::dvec3> corners;
+    for (const Surface::Triangle& t : surface.triangles()) {
+        if (!t.framed) continue;
+        for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2})
+            corners.emplace_back(corner);
+    }
+    return corners;
+}
+
+std::vector<glm::dvec3> outermost(const std::vector<glm::dvec3>& points) {
+    constexpr int kDirections = 64;
+    std::vector<glm::dvec3> outer(kDirections);
+    parallelFor(kDirections, 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::dvec3 direction(onSphere(static_cast<int>(i), kDirections));
+            outer[i] = *std::max_element(points.begin(), points.end(),
+                                         [&](const glm::dvec3& a, const glm::dvec3& b) {
+                                             return glm::dot(a, direction) < glm::dot(b, direction);
+                                         });
+        }
+    });
+    return outer;
+}
+
+class Framer {
+  public:
+    Framer(const CameraChoice& choice, const Surface& surface, const ViewSamples& samples, float aspect)
+        : choice_(choice),
+          surface_(surface),
+          samples_(samples),
+          aspect_(aspect),
+          axes_(choice.up.value_or(kUp)),
+          corners_(cornersOf(surface)),
+          outermost_(outermost(corners_)) {
+        if (choice.target) target_ = surface.toLocal(*choice.target);
+    }
+
+    Camera frame() const {
+        if (choice_.position) return fromPosition();
+        const View outside = bestOutside();
+        std::optional<InsideView> inside =
+            bestInsideView(surface_, samples_, axes_, aspect_, choice_.vfov, target_, outside.unseen);
+        if (inside && inside->worth > outside.worth) return camera(inside->eye, inside->target, inside->vfov);
+        Frustum exact = outside.frustum;
+        placeEye(exact, corners_);
+        return camera(exact.eye, targetOf(exact), vfov());
+    }
+
+  private:
+    struct View {
+        Frustum frustum;
+        float worth = -1.0f;
+        float unseen = 0.0f;  // the part of the samples that no candidate saw
+    };
+
+    float vfov() const { return choice_.vfov.value_or(kDefaultVfov); }
+
+    Frustum frustumOf(const glm::vec3& forward, float angle) const {
+        const auto [right, up] = axes_.across(forward);
+        const float tangent = std::tan(0.5f * glm::radians(angle));
+        return {glm::vec3(0.0f), forward, right, up, tangent * aspect_, tangent};
+    }
+
+    /// As near as all points are within the frustum with some margin, and in the middle; if there is a target
+    /// it is the middle.
+    void placeEye(Frustum& frustum, const std::vector<glm::dvec3>& points) const {
+        const glm::dvec3 forward(frustum.forward), right(frustum.right), up(frustum.up);
+        const double tangentX = static_cast<double>(frustum.tangentX) / kMargin;
+        const double tangentY = static_cast<double>(frustum.tangentY) / kMargin;
+        // An eye sees a point if, of both offsets, |x| <= tangentX z and |y| <= tangentY z. The largest
+        // values of x - tangentX z and so on say where the four planes of the frustum touch.
+        glm::dvec4 touch(-1e300);
+        double nearest = 1e300;
+        const glm::dvec3 middle = target_ ? glm::dvec3(*target_) : glm::dvec3(0.0);
+        for (const glm::dvec3& point : points) {
+            const glm::dvec3 offset = point - middle;
+            const double x = glm::dot(offset, right), y = glm::dot(offset, up), z = glm::dot(offset, forward);
+            touch = glm::max(
+                touch, glm::dvec4(x - tangentX * z, -x - tangentX * z, y - tangentY * z, -y - tangentY * z));
+            nearest = std::min(nearest, z);
+        }
+        constexpr double kLeastDepth = 0.02;
+        glm::dvec2 across(0.0);
+        double depth = nearest - kLeastDepth;
+        if (target_) {
+            depth = std::min(
+                {depth, -std::max(touch.x, touch.y) / tangentX, -std::max(touch.z, touch.w) / tangentY});
+        } else {
+            across = 0.5 * glm::dvec2(touch.x - touch.y, touch.z - touch.w);
+            depth = std::min(
+                {depth, -0.5 * (touch.x + touch.y) / tangentX, -0.5 * (touch.z + touch.w) / tangentY});
+        }
+        frustum.eye = glm::vec3(middle + across.x * right + across.y * up + depth * forward);
+    }
+
+    glm::vec3 targetOf(const Frustum& frustum) const {
+        if (target_) return *target_;
+        float least = 1e30f, most = -1e30f;
+        for (const glm::dvec3& point : outermost_) {
+            const float depth = glm::dot(glm::vec3(point) - frustum.eye, frustum.forward);
+            least = std::min(least, depth);
+            most = std::max(most, depth);
+        }
+        return frustum.eye + 0.5f * (least + most) * frustum.forward;
+    }
+
+    View bestOutside() const {
+        const std::vector<OutsideDirection> directions = outsideDirections(axes_);
+        std::vector<View> views(directions.size());
+        std::vector<std::vector<bool>> seen(directions.size(), std::vector<bool>(samples_.size()));
+        parallelFor(directions.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                Frustum frustum = frustumOf(-directions[i].towardsEye, vfov());
+                placeEye(frustum, outermost_);
+                // A target on a surface is not hidden by that.
+                const bool hidden =
+                    target_ && !surface_.sees(frustum.eye, *target_ - 1e-3f * frustum.forward);
+                const float preference = directions[i].preference * (hidden ? 0.3f : 1.0f);
+                views[i] = {frustum, preference * samples_.worthOf(frustum, &seen[i])};
+            }
+        });
+        View best = *std::max_element(views.begin(), views.end(),
+                                      [](const View& a, const View& b) { return a.worth < b.worth; });
+        std::size_t unseen = 0;
+        for (std::size_t k = 0; k < samples_.size(); ++k) {
+            unseen += std::none_of(seen.begin(), seen.end(), [&](const auto& s) { return s[k]; }) ? 1 : 0;
+        }
+        best.unseen =
+            static_cast<float>(unseen) / static_cast<float>(std::max<std::size_t>(samples_.size(), 1));
+        return best;
+    }
+
+    /// The position is given, the target is not.
+    Camera fromPosition() const {
+        const glm::vec3 eye = surface_.toLocal(*choice_.position);
+        glm::vec3 lower(1e30f), upper(-1e30f);
+        for (const glm::dvec3& point : outermost_) {
+            lower = glm::min(lower, glm::vec3(point));
+            upper = glm::max(upper, glm::vec3(point));
+        }
+        const glm::vec3 centre = 0.5f * (lower + upper);
+        const bool inside = glm::all(glm::greaterThan(eye, lower)) && glm::all(glm::lessThan(eye, upper));
+        if (!inside && glm::distance(eye, centre) > 1e-3f)
+            return camera(eye, centre, angleAround(eye, centre));
+        const float angle = choice_.vfov.value_or(insideVfov(aspect_));
+        Frustum best{};
+        float most = -1.0f;
+        for (const glm::vec3& forward : lookAround(axes_)) {
+            Frustum frustum = frustumOf(forward, angle);
+            frustum.eye = eye;
+            const float worth = samples_.worthOf(frustum);
+            if (worth > most) best = frustum;
+            most = std::max(worth, most);
+        }
+        const auto hit = surface_.firstHit(eye, best.forward);
+        return camera(eye, eye + (hit ? std::max(hit->distance, 1e-3f) : 1.0f) * best.forward, angle);
+    }
+
+    /// The vertical angle that takes in everything, within limits.
+    float angleAround(const glm::vec3& eye, const glm::vec3& target) const {
+        if (choice_.vfov) return *choice_.vfov;
+        const glm::vec3 forward = glm::normalize(target - eye);
+        const auto [right, up] = axes_.across(forward);
+        float tangent = 0.0f;
+        for (const glm::dvec3& point : outermost_) {
+            const glm::vec3 offset = glm::vec3(point) - eye;
+            const float depth = std::max(glm::dot(offset, forward), 1e-4f);
+            tangent = std::max({tangent, std::abs(glm::dot(offset, up)) / depth,
+                                std::abs(glm::dot(offset, right)) / (depth * aspect_)});
+        }
+        const float angle = 2.0f * glm::degrees(std::atan(tangent * static_cast<float>(kMargin)));
+        return std::clamp(angle, 1.0f, 100.0f);
+    }
+
+    Camera camera(const glm::vec3& eye, const glm::vec3& target, float angle) const {
+        Camera camera;
+        camera.position = choice_.position ? glm::vec3(*choice_.position) : glm::vec3(surface_.toScene(eye));
+        camera.target = choice_.target ? glm::vec3(*choice_.target) : glm::vec3(surface_.toScene(target));
+        camera.up = choice_.up ? glm::vec3(*choice_.up)
+                               : axes_.upFor(glm::normalize(camera.target - camera.position));
+        camera.vfov = angle;
+        return camera;
+    }
+
+    const CameraChoice& choice_;
+    const Surface& surface_;
+    const ViewSamples& samples_;
+    float aspect_;
+    ViewAxes axes_;
+    std::optional<glm::vec3> target_;  // local, if it is given
+    std::vector<glm::dvec3> corners_, outermost_;
+};
+
+}  // namespace
+
+Camera completeCamera(const CameraChoice& choice) {
+    const ViewAxes axes(choice.up.value_or(kUp));
+    Camera camera;
+    camera.position = glm::vec3(*choice.position);
+    camera.target = glm::vec3(*choice.target);
+    camera.up = choice.up ? glm::vec3(*choice.up)
+                          : axes.upFor(glm::vec3(glm::normalize(*choice.target - *choice.position)));
+    camera.vfov = choice.vfov.value_or(kDefaultVfov);
+    return camera;
+}
+
+Camera frameCamera(const CameraChoice& choice, const Surface& surface, const ViewSamples& samples,
+                   float aspect) {
+    if (choice.complete()) return completeCamera(choice);
+    return Framer(choice, surface, samples, aspect).frame();
+}
+
+}  // namespace duolux

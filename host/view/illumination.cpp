@@ -1,0 +1,119 @@
+#include "host/view/illumination.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace duolux {
+
+namespace {
+
+constexpr int kScatterings = 4;
+constexpr float kOffset = 1e-5f;  // in units of the scene's radius
+
+float mean(const glm::vec3& channels) {
+    return (channels.x + channels.y + channels.z) / 3.0f;
+}
+
+/// Cosine-distributed about the normal.
+glm::vec3 scattered(const glm::vec3& normal, SmallRandom& random) {
+    const float z = 1.0f - 2.0f * random.next();
+    const float phi = glm::two_pi<float>() * random.next();
+    const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    // A point of the unit sphere that touches the surface.
+    const glm::vec3 sum = normal + glm::vec3(r * std::cos(phi), r * std::sin(phi), z);
+    const float length = glm::length(sum);
+    return length > 1e-3f ? sum / length : normal;
+}
+
+}  // namespace
+
+float SmallRandom::next() {
+    state_ += 0x9e3779b97f4a7c15ull;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    z ^= z >> 31;
+    return static_cast<float>(z >> 40) * 0x1p-24f;
+}
+
+bool scatters(const Material& material, bool front) {
+    return (front || material.sides == Sides::kBoth) && mean(material.diffuse) > 0.0f;
+}
+
+SurfacePoint pointOf(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction,
+                     const Surface::Hit& hit) {
+    const glm::vec3 normal = glm::normalize(surface.triangles()[hit.triangle].areaVector());
+    return {origin + hit.distance * direction, hit.front ? normal : -normal, hit.triangle, hit.front};
+}
+
+Illumination::Illumination(const Surface& surface, std::optional<std::uint32_t> material, bool bothSides)
+    : surface_(surface) {
+    for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
+        if (material && surface.triangles()[i].material != *material) continue;
+        const Emission& emission = surface.materialOf(i).emission;
+        const float radiance = mean(emission.invisible);
+        const glm::vec3 area = surface.triangles()[i].areaVector();
+        const float size = glm::length(area);
+        if (!(radiance > 0.0f && size > 0.0f)) continue;
+        const bool both = bothSides || emission.sides == Sides::kBoth;
+        const double power = static_cast<double>(radiance) * static_cast<double>(size) * (both ? 2.0 : 1.0);
+        emitters_.push_back({i, power_, power, area / size, radiance, both});
+        power_ += power;
+    }
+}
+
+float Illumination::direct(const SurfacePoint& point, const glm::vec3& random) const {
+    const double wanted = static_cast<double>(random.z) * power_;
+    const auto after = std::upper_bound(emitters_.begin(), emitters_.end(), wanted,
+                                        [](double p, const Emitter& e) { return p < e.powerBefore; });
+    const Emitter& emitter = *(after - 1);
+    const Surface::Triangle& t = surface_.triangles()[emitter.triangle];
+    const float root = std::sqrt(random.x);
+    const glm::vec3 at = t.corner + root * (1.0f - random.y) * t.edge1 + root * random.y * t.edge2;
+    const glm::vec3 origin = point.position + kOffset * point.normal;
+    const glm::vec3 offset = at - origin;
+    const float squared = glm::dot(offset, offset);
+    if (!(squared > 0.0f) || emitter.triangle == point.triangle) return 0.0f;
+    const glm::vec3 direction = offset / std::sqrt(squared);
+    const float cosine = glm::dot(point.normal, direction);
+    float cosineThere = -glm::dot(emitter.normal, direction);
+    if (emitter.both) cosineThere = std::abs(cosineThere);
+    if (!(cosine > 0.0f && cosineThere > 0.0f) || !surface_.sees(origin, at, point.triangle)) return 0.0f;
+    // The density per area is radiance (twice that for both sides) over power.
+    const float perRadiance = static_cast<float>(power_) / (emitter.both ? 2.0f : 1.0f);
+    return cosine * cosineThere / squared * perRadiance / glm::pi<float>();
+}
+
+float Illumination::onWhite(const SurfacePoint& point, std::uint32_t seed, int paths) const {
+    if (emitters_.empty()) return 0.0f;
+    SmallRandom random(seed);
+    const auto next3 = [&] {
+        const float x = random.next(), y = random.next();
+        return glm::vec3(x, y, random.next());
+    };
+    float sum = 0.0f;
+    for (int path = 0; path < paths; ++path) {
+        SurfacePoint at = point;
+        float weight = 1.0f;
+        for (int i = 0; i < kScatterings; ++i) {
+            sum += weight * direct(at, next3());
+            const glm::vec3 direction = scattered(at.normal, random);
+            const glm::vec3 origin = at.position + kOffset * at.normal;
+            const auto hit = surface_.firstHit(origin, direction, at.triangle);
+            if (!hit) break;
+            const Material& material = surface_.materialOf(hit->triangle);
+            if (!scatters(material, hit->front)) break;
+            weight *= mean(material.diffuse);
+            at = pointOf(surface_, origin, direction, *hit);
+        }
+    }
+    return sum / static_cast<float>(paths);
+}
+
+float Illumination::emitted(const SurfacePoint& point) const {
+    const Emission& emission = surface_.materialOf(point.triangle).emission;
+    return point.front || emission.sides == Sides::kBoth ? mean(emission.visible) : 0.0f;
+}
+
+}  // namespace duolux

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "host/view/surface.h"
+
+namespace duolux {
+
+/// A point of a surface, on one of its sides.
+struct SurfacePoint {
+    glm::vec3 position;
+    glm::vec3 normal;  ///< unit, on the side that is meant
+    std::uint32_t triangle;
+    bool front;
+};
+
+/// The point that a ray from `origin` meets, on the side that it comes from.
+SurfacePoint pointOf(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction,
+                     const Surface::Hit& hit);
+
+/// How brightly the emitters of a scene light its surfaces, estimated by a few random paths under ordinary
+/// global illumination, whatever the scene's reflectance. Means over the channels.
+class Illumination {
+  public:
+    /// By all emitters, or those of one material; as they are, or all from both sides.
+    explicit Illumination(const Surface& surface, std::optional<std::uint32_t> material = std::nullopt,
+                          bool bothSides = false);
+
+    /// Some triangle emits invisible light, which lights others.
+    bool lights() const { return !emitters_.empty(); }
+
+    /// Radiance that a white surface would reflect here. The same for the same seed.
+    float onWhite(const SurfacePoint& point, std::uint32_t seed, int paths) const;
+
+    /// Visible radiance that the surface itself emits here.
+    float emitted(const SurfacePoint& point) const;
+
+  private:
+    struct Emitter {
+        std::uint32_t triangle;
+        double powerBefore, power;  // of all emitters before, and its own
+        glm::vec3 normal;
+        float radiance;
+        bool both;
+    };
+
+    float direct(const SurfacePoint& point, const glm::vec3& random) const;
+
+    const Surface& surface_;
+    std::vector<Emitter> emitters_;
+    double power_ = 0.0;
+};
+
+/// The side of this material's surfaces reflects light.
+bool scatters(const Material& material, bool front);
+
+/// Uniform random numbers in [0, 1) from SplitMix64 (Steele, Lea, Flood 2014).
+class SmallRandom {
+  public:
+    explicit SmallRandom(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ull) {}
+    float next();
+
+  private:
+    std::uint64_t state_;
+};
+
+}  // namespace duolux

@@ -1,0 +1,139 @@
+#include "host/view/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "host/base/error.h"
+#include "host/base/memory.h"
+#include "host/base/printable.h"
+#include "host/scene/compose.h"
+#include "host/scene/energy.h"
+#include "host/scene/hash.h"
+#include "host/scene/json_scene.h"
+#include "host/scene/mesh.h"
+#include "host/view/default_light.h"
+#include "host/view/frame_camera.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr const char* kNothingEmits = "nothing emits light: the picture will be black";
+
+SceneFile readObjScene(const std::filesystem::path& path) {
+    Scene scene;
+    scene.source = path;
+    scene.reflectance = *presetReflectance("global");
+    appendMesh(scene, loadObj(path));
+    if (scene.geometry.triangles.empty()) {
+        throw InputError(path.string(), "", "every triangle has zero area", "expected triangles with area");
+    }
+    const std::size_t triangles = scene.geometry.triangles.size();
+    return {std::move(scene), {}, triangles, false, false};
+}
+
+SceneFile readScene(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".obj") return readObjScene(path);
+    if (extension == ".json") return readJsonScene(path);
+    throw InputError(path.string(), "", "is not a scene by its extension", "expected .obj or .json");
+}
+
+/// Camera and lamp.
+class View {
+  public:
+    View(Scene& scene, std::size_t framedTriangles)
+        : scene_(scene),
+          surface_(scene, framedTriangles),
+          illumination_(surface_),
+          samples_(surface_, illumination_),
+          aspect_(static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height)) {}
+
+    void frame(const CameraChoice& choice) {
+        scene_.camera = frameCamera(choice, surface_, samples_, aspect_);
+    }
+
+    bool dark() const {
+        return brightnessFor(scene_.camera, aspect_, surface_, illumination_, samples_) < kDark;
+    }
+
+    void addLamp() { addDefaultLight(scene_, surface_); }
+
+  private:
+    Scene& scene_;
+    Surface surface_;
+    Illumination illumination_;
+    ViewSamples samples_;
+    float aspect_;
+};
+
+void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices) {
+    const CameraChoice camera = read.camera.overriddenBy(choices.camera);
+    if (const auto wrong = camera.contradiction()) {
+        throw InputError(scene.source.string(), "camera", wrong->problem, wrong->remedy);
+    }
+    const bool emits = anyEmitter(scene);
+    const bool mayAddLamp =
+        choices.lamp == Lamp::kAlways || (choices.lamp == Lamp::kIfDark && !read.hasLights);
+    if (camera.complete() && !mayAddLamp) {
+        scene.camera = completeCamera(camera);
+        if (!emits) scene.warnings.emplace_back(kNothingEmits);
+        return;
+    }
+    View view(scene, read.framedTriangles);
+    view.frame(camera);
+    const char* const out = "a lamp is added above the camera, out of view";
+    if (choices.lamp == Lamp::kAlways) {
+        view.addLamp();
+    } else if (!mayAddLamp) {
+        if (!emits) scene.warnings.emplace_back(kNothingEmits);
+    } else if (!emits) {
+        view.addLamp();
+        scene.warnings.push_back(fmt::format("nothing emits light: {}", out));
+    } else if (view.dark()) {
+        view.addLamp();
+        scene.warnings.push_back(fmt::format(
+            "the emitters would show white surfaces at less than {} % of white: {}", kDarkPercent, out));
+    }
+}
+
+void chooseBounces(Scene& scene, const SceneFile& read, const SceneChoices& choices) {
+    if (choices.bounces) {
+        scene.render.bounces = *choices.bounces;
+    } else if (!read.hasBounces && seriesMayGrow(scene)) {
+        scene.render.bounces = kBouncesOfGrowth;
+        scene.warnings.push_back(fmt::format(
+            "light may grow with every bounce, and nothing says how many there are: the picture is "
+            "that of {}",
+            kBouncesOfGrowth));
+    }
+}
+
+Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
+    SceneFile read = readScene(path);
+    Scene scene = std::move(read.scene);
+    if (choices.size) {
+        scene.render.width = choices.size->x;
+        scene.render.height = choices.size->y;
+    }
+    scene.reflectance = choices.reflectance.value_or(scene.reflectance);
+    chooseBounces(scene, read, choices);
+    chooseView(scene, read, choices);
+    for (std::string& warning : scene.warnings)
+        warning = printable(warning);
+    scene.hash = hashScene(scene);
+    return scene;
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& path, const SceneChoices& choices) {
+    return withMemoryToRead(path, [&] { return load(path, choices); });
+}
+
+}  // namespace duolux

@@ -1,0 +1,163 @@
+#include "host/view/simplify.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "host/base/parallel.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr std::size_t kMostExact = 200'000;    // triangles
+constexpr std::size_t kMostEmitters = 50'000;  // that are kept as they are
+constexpr std::uint32_t kNoCell = 0xffffffffu;
+
+/// Vertices by the cell of a grid that they are in.
+class Clusters {
+  public:
+    Clusters(const Surface& surface, std::uint32_t cellsAcross)
+        : across_(cellsAcross), cellOf_(surface.scene().geometry.positions.size()) {
+        const std::vector<glm::vec3>& positions = surface.scene().geometry.positions;
+        parallelFor(positions.size(), 1u << 14, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                cellOf_[i] = cellAt(surface.toLocal(glm::dvec3(positions[i])));
+        });
+        std::vector<std::uint32_t> numbers(std::size_t{across_} * across_ * across_, kNoCell);
+        std::vector<glm::vec3> sums;
+        std::vector<std::uint32_t> counts;
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            if (cellOf_[i] == kNoCell) continue;
+            std::uint32_t& number = numbers[cellOf_[i]];
+            if (number == kNoCell) {
+                number = static_cast<std::uint32_t>(sums.size());
+                sums.emplace_back(0.0f);
+                counts.push_back(0);
+            }
+            cellOf_[i] = number;
+            sums[number] += surface.toLocal(glm::dvec3(positions[i]));
+            ++counts[number];
+        }
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i] /= static_cast<float>(counts[i]);
+        centres_ = std::move(sums);
+    }
+
+    std::uint32_t of(std::uint32_t position) const { return cellOf_[position]; }
+    const glm::vec3& centre(std::uint32_t cluster) const { return centres_[cluster]; }
+
+  private:
+    std::uint32_t cellAt(const glm::vec3& local) const {
+        const auto across = static_cast<float>(across_);
+        const glm::vec3 cell = glm::floor((local * 0.5f + 0.5f) * across);
+        // Vertices that no triangle uses may be anywhere.
+        if (!glm::all(glm::greaterThanEqual(cell, glm::vec3(-1.0f))) ||
+            !glm::all(glm::lessThanEqual(cell, glm::vec3(across)))) {
+            return kNoCell;
+        }
+        const glm::uvec3 c(glm::clamp(cell, 0.0f, across - 1.0f));
+        return (c.x * across_ + c.y) * across_ + c.z;
+    }
+
+    std::uint32_t across_;
+    std::vector<std::uint32_t> cellOf_;  // of positions
+    std::vector<glm::vec3> centres_;
+};
+
+struct HashTriple {
+    std::size_t operator()(const glm::uvec3& t) const {
+        std::uint64_t h =
+            t.x * 0x9e3779b97f4a7c15ull ^ t.y * 0xc2b2ae3d27d4eb4full ^ t.z * 0x165667b19e3779f9ull;
+        return static_cast<std::size_t>(h ^ (h >> 29));
+    }
+};
+
+/// The same triangle begun with its smallest number.
+glm::uvec3 inOrder(const glm::uvec3& t) {
+    if (t.x < t.y && t.x < t.z) return t;
+    return t.y < t.z ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
+}
+
+class Simplifier {
+  public:
+    Simplifier(const Surface& surface, std::size_t framedTriangles)
+        : surface_(surface), framedTriangles_(framedTriangles) {
+        const Geometry& geometry = surface.scene().geometry;
+        if (geometry.triangles.size() > kMostExact) {
+            const auto emitters =
+                std::count_if(geometry.materials.begin(), geometry.materials.end(),
+                              [&](std::uint32_t m) { return surface.scene().materials[m].emission.any(); });
+            keepEmitters_ = static_cast<std::size_t>(emitters) <= kMostEmitters;
+        }
+    }
+
+    std::vector<Surface::Triangle> all() const {
+        const std::size_t count = surface_.scene().geometry.triangles.size();
+        std::vector<Surface::Triangle> triangles;
+        triangles.reserve(count);
+        for (std::size_t i = 0; i < count; ++i)
+            addExact(triangles, i);
+        return triangles;
+    }
+
+    std::vector<Surface::Triangle> clustered(std::uint32_t cellsAcross) const {
+        const Scene& scene = surface_.scene();
+        const Geometry& geometry = scene.geometry;
+        const Clusters clusters(surface_, cellsAcross);
+        std::vector<Surface::Triangle> triangles;
+        std::unordered_set<glm::uvec3, HashTriple> seen;
+        for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+            const glm::uvec3 t = geometry.triangles[i];
+            if (keepEmitters_ && scene.materials[geometry.materials[i]].emission.any()) {
+                addExact(triangles, i);
+                continue;
+            }
+            const glm::uvec3 c(clusters.of(t.x), clusters.of(t.y), clusters.of(t.z));
+            if (c.x == c.y || c.y == c.z || c.z == c.x || !seen.insert(inOrder(c)).second) continue;
+            add(triangles, i, clusters.centre(c.x), clusters.centre(c.y), clusters.centre(c.z));
+        }
+        return triangles;
+    }
+
+  private:
+    void addExact(std::vector<Surface::Triangle>& triangles, std::size_t i) const {
+        const Geometry& geometry = surface_.scene().geometry;
+        const auto corner = [&](int k) {
+            return surface_.toLocal(glm::dvec3(geometry.positions[geometry.triangles[i][k]]));
+        };
+        add(triangles, i, corner(0), corner(1), corner(2));
+    }
+
+    void add(std::vector<Surface::Triangle>& triangles, std::size_t i, const glm::vec3& a, const glm::vec3& b,
+             const glm::vec3& c) const {
+        triangles.push_back({a, b - a, c - a, surface_.scene().geometry.materials[i], i < framedTriangles_});
+    }
+
+    const Surface& surface_;
+    std::size_t framedTriangles_;
+    bool keepEmitters_ = true;
+};
+
+}  // namespace
+
+std::vector<Surface::Triangle> simplifiedTriangles(const Surface& surface, std::size_t framedTriangles) {
+    const Simplifier simplifier(surface, framedTriangles);
+    if (surface.scene().geometry.triangles.size() <= kMostExact) return simplifier.all();
+    std::vector<Surface::Triangle> triangles;
+    for (const std::uint32_t cellsAcross : {128u, 64u, 32u}) {
+        triangles = simplifier.clustered(cellsAcross);
+        if (triangles.size() <= 2 * kMostExact) break;
+    }
+    // Triangles that are all smaller than a cell, far apart, leave nothing: a few of them stand for all.
+    if (triangles.empty()) {
+        triangles = simplifier.all();
+        const std::size_t stride = triangles.size() / kMostExact + 1;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < triangles.size(); i += stride)
+            triangles[kept++] = triangles[i];
+        triangles.resize(kept);
+    }
+    return triangles;
+}
+
+}  // namespace duolux

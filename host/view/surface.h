@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "host/bvh/binary_bvh.h"
+#include "host/scene/scene.h"
+
+namespace duolux {
+
+/// The triangles of a scene for questions of visibility on the host, in coordinates of its own: the scene's
+/// bounds, centred at the origin, fit the unit ball, whatever their size and place. Scenes of many triangles
+/// are simplified, so that a question takes microseconds and the whole fractions of a second. Deterministic.
+class Surface {
+  public:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    struct Triangle {
+        glm::vec3 corner, edge1, edge2;
+        std::uint32_t material;
+        bool framed;  ///< belongs to what a camera should show; luminaires given apart from meshes do not
+
+        glm::vec3 areaVector() const { return 0.5f * glm::cross(edge1, edge2); }
+    };
+
+    struct Hit {
+        std::uint32_t triangle;
+        float distance;
+        bool front;  ///< the side that the ray meets
+    };
+
+    /// The scene must stay. Its first `framedTriangles` triangles are what a camera should show.
+    Surface(const Scene& scene, std::size_t framedTriangles);
+
+    const Scene& scene() const { return *scene_; }
+    const std::vector<Triangle>& triangles() const { return triangles_; }
+    const Material& materialOf(std::uint32_t triangle) const {
+        return scene_->materials[triangles_[triangle].material];
+    }
+
+    glm::vec3 toLocal(const glm::dvec3& point) const { return {(point - centre_) * scale_}; }
+    glm::dvec3 toScene(const glm::vec3& point) const { return glm::dvec3(point) / scale_ + centre_; }
+    double scale() const { return scale_; }  ///< lengths here over lengths in the scene
+
+    /// The nearest triangle but `skipped` along a unit direction.
+    std::optional<Hit> firstHit(const glm::vec3& origin, const glm::vec3& direction,
+                                std::uint32_t skipped = kNone) const;
+
+    /// No triangle but `skipped` lies between the two points.
+    bool sees(const glm::vec3& from, const glm::vec3& to, std::uint32_t skipped = kNone) const;
+
+  private:
+    struct Ray;
+    bool meets(std::uint32_t triangle, Ray& ray) const;
+    bool traverse(Ray& ray, bool any) const;
+
+    const Scene* scene_;
+    glm::dvec3 centre_{0.0};
+    double scale_ = 1.0;
+    std::vector<Triangle> triangles_;
+    BinaryBvh tree_;
+};
+
+}  // namespace duolux

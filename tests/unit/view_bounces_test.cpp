@@ -1,0 +1,52 @@
+#include "host/view/load.h"
+#include "tests/unit/scene_files.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class ViewBounces : public SceneFiles {
+  protected:
+    Scene with(const std::string& keys, const SceneChoices& choices = {}) {
+        write("mesh.obj", kTriangleObj);
+        return loadScene(
+            write("scene.json", R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}])" + keys + "}"), choices);
+    }
+    SceneChoices withReflectance(float t, float o) {
+        SceneChoices choices;
+        choices.reflectance = blendReflectance(t, o);
+        return choices;
+    }
+};
+
+TEST_F(ViewBounces, AreFewWhereLightMayGrowAndNothingSaysHowMany) {
+    const std::string shadowless = R"(, "reflectance": {"preset": "shadowless"})";
+    const std::string material = R"(, "materials": {"default": {"reflectance": {"preset": "shadowless"}}})";
+    for (const Scene& scene : {with(shadowless), with("", withReflectance(1, 1)), with(material),
+                               with("", withReflectance(0.5f, 1))}) {
+        EXPECT_EQ(scene.render.bounces, 4u);
+        EXPECT_THAT(scene.warnings, Contains(HasSubstr("the picture is that of 4")));
+    }
+    // What is said is kept, without a word.
+    SceneChoices choices = withReflectance(1, 1);
+    choices.bounces = 16;
+    for (const Scene& scene : {with(shadowless + R"(, "render": {"bounces": 16})"), with("", choices)}) {
+        EXPECT_EQ(scene.render.bounces, 16u);
+        EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("may grow"))));
+    }
+}
+
+TEST_F(ViewBounces, AreSixteenWhereLightFades) {
+    for (const Scene& scene : {with(""), with("", withReflectance(1, 0)), with("", withReflectance(0.1f, 1)),
+                               with(R"(, "reflectance": {"preset": "shadowless"})", withReflectance(0, 1)),
+                               with(R"(, "materials": {"default": {"diffuse": 1}})")}) {
+        EXPECT_EQ(scene.render.bounces, 16u);
+        EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("may grow"))));
+    }
+}
+
+}  // namespace
+}  // namespace duolux::test

@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/view_framed.h"
+
+namespace duolux::test {
+namespace {
+
+bool isInside(const glm::vec3& point, const glm::vec3& half) {
+    return glm::all(glm::lessThan(glm::abs(point), half));
+}
+
+/// A room of 4 x 2 x 4 with two boxes on its floor.
+SceneBuilder furnishedRoom(Facing facing) {
+    SceneBuilder builder;
+    const std::uint32_t material = builder.add(Material{});
+    builder.box({-2, -1, -2}, {2, 1, 2}, facing, material);
+    builder.box({-1.5f, -1, -1.5f}, {-0.7f, -0.1f, -0.7f}, Facing::kOutward, material);
+    builder.box({0.6f, -1, -0.2f}, {1.5f, -0.5f, 0.9f}, Facing::kOutward, material);
+    return builder;
+}
+
+void addLamp(SceneBuilder& builder, bool down) {
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.emission.invisible = lamp.emission.visible = glm::vec3(8.0f);
+    const std::uint32_t material = builder.add(lamp);
+    const glm::vec3 a(-0.5f, 0.6f, -0.5f), b(0.5f, 0.6f, -0.5f), c(0.5f, 0.6f, 0.5f), d(-0.5f, 0.6f, 0.5f);
+    if (down) {
+        builder.quad(a, b, c, d, material);
+    } else {
+        builder.quad(d, c, b, a, material);
+    }
+}
+
+TEST(ViewInside, ALitRoomIsSeenFromWithinWhateverItsWinding) {
+    for (const Facing facing : {Facing::kInward, Facing::kOutward}) {
+        for (const bool down : {true, false}) {
+            SceneBuilder builder = furnishedRoom(facing);
+            addLamp(builder, down);
+            const Camera camera = framed(builder.scene);
+            EXPECT_TRUE(isInside(camera.position, {2, 1, 2}));
+            EXPECT_GT(glm::length(glm::vec2(camera.position.x, camera.position.z)), 1.2f) << "near a wall";
+            EXPECT_GT(glm::dot(camera.target - camera.position, -camera.position), 0.0f)
+                << "looks at the middle";
+            EXPECT_GT(camera.vfov, 55.0f);
+        }
+    }
+}
+
+TEST(ViewInside, ARoomWithoutLampsIsToldByItsFronts) {
+    EXPECT_TRUE(isInside(framed(furnishedRoom(Facing::kInward).scene).position, {2, 1, 2}));
+    EXPECT_FALSE(isInside(framed(furnishedRoom(Facing::kOutward).scene).position, {2, 1, 2}));
+}
+
+TEST(ViewInside, SolidsAreSeenFromOutside) {
+    EXPECT_FALSE(isInside(framed(boxScene({-1, -1, -1}, {1, 1, 1})).position, glm::vec3(1)));
+    // A lamp outside of a closed body does not light it from within.
+    Scene scene = boxScene({-1, -1, -1}, {1, 1, 1});
+    SceneBuilder builder;
+    builder.scene = scene;
+    Material lamp;
+    lamp.emission.invisible = glm::vec3(20.0f);
+    builder.quad({-1, 3, -1}, {1, 3, -1}, {1, 3, 1}, {-1, 3, 1}, builder.add(lamp));
+    EXPECT_FALSE(isInside(framed(builder.scene).position, glm::vec3(1)));
+}
+
+TEST(ViewInside, PartsOfACameraThatAreSaidAreKept) {
+    SceneBuilder builder = furnishedRoom(Facing::kInward);
+    addLamp(builder, true);
+    CameraChoice choice;
+    choice.vfov = 30.0f;
+    EXPECT_EQ(framed(builder.scene, choice).vfov, 30.0f);
+    choice = {};
+    choice.target = {0.5, 0, 0.5};
+    const Camera at = framed(builder.scene, choice);
+    EXPECT_EQ(at.target, glm::vec3(0.5f, 0.0f, 0.5f));
+    EXPECT_TRUE(isInside(at.position, {2, 1, 2}));
+    choice = {};
+    choice.position = {1.8, 0.2, 1.8};
+    const Camera from = framed(builder.scene, choice);
+    EXPECT_GT(from.vfov, 55.0f);
+    const glm::vec3 view = glm::normalize(from.target - from.position);
+    EXPECT_LT(view.x + view.z, -0.5f) << "away from the corner";
+}
+
+}  // namespace
+}  // namespace duolux::test
