@@ -156,11 +156,11 @@ void gatherClosedForm(inout Gathered gathered, Vertex vertex, uint scatterings) 
     for (uint i = 0u; i < params.lightCount; i++) {
         LightTriangle light = fetchLight(i);
         vec3 a = light.v0 - vertex.point.position;
-        vec3 b = light.v1 - vertex.point.position;
-        vec3 c = light.v2 - vertex.point.position;
-        bool front = dot(cross(light.v1 - light.v0, light.v2 - light.v0), a) < 0.0;
+        vec3 edge1 = light.v1 - light.v0;
+        vec3 edge2 = light.v2 - light.v0;
+        bool front = dot(cross(edge1, edge2), a) < 0.0;
         Light emission = materialEmission(fetchMaterial(light.material), front);
-        float solidAngle = projectedSolidAngle(a, b, c, vertex.point.shadingNormal);
+        float solidAngle = projectedSolidAngle(a, edge1, edge2, vertex.point.shadingNormal);
         total.invisible += emission.invisible * solidAngle;
         total.visible += emission.visible * solidAngle;
     }

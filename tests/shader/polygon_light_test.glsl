@@ -19,7 +19,7 @@ Corners randomCorners() {
     return Corners(a, b, c, randomDirection());
 }
 
-float projected(Corners p) { return projectedSolidAngle(p.a, p.b, p.c, p.normal); }
+float projected(Corners p) { return projectedSolidAngle(p.a, p.b - p.a, p.c - p.a, p.normal); }
 
 // Of up to three triangles the sum, less that of a fourth. (A loop, because drivers take long to compile each call.)
 float sumLess(Corners parts[3], int count, Corners whole) {
@@ -119,7 +119,7 @@ TEST(FacesAllAroundMakeTheWholeSky) {
         vec3 a = (octant & 1u) != 0u ? x : -x;
         vec3 b = (octant & 2u) != 0u ? y : -y;
         vec3 c = (octant & 4u) != 0u ? z : -z;
-        sky += projectedSolidAngle(a, b, c, normal);
+        sky += projectedSolidAngle(a, b - a, c - a, normal);
     }
     EXPECT_NEAR(sky, kPi, 6e-6);
 }

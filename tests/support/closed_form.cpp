@@ -39,7 +39,7 @@ double lambertPolygon(const Vec3& point, const Vec3& normal, std::span<const Vec
     double sum = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vec3 &p = corners[i], &q = corners[(i + 1) % corners.size()];
-        const Vec3 axis = glm::cross(p, q);
+        const Vec3 axis = glm::cross(p, q - p);  // p x q, which would lose the digits of a short edge
         const double sine = glm::length(axis);
         if (sine > 0.0) sum += std::atan2(sine, glm::dot(p, q)) * glm::dot(axis / sine, normal);
     }

@@ -23,6 +23,8 @@ inline constexpr Swizzle<0, 1> xy;
 inline constexpr Swizzle<2, 3> zw;
 inline constexpr Swizzle<0, 1, 2> xyz;
 inline constexpr Swizzle<1, 2, 3> yzw;
+inline constexpr Swizzle<1, 2, 0> yzx;
+inline constexpr Swizzle<2, 0, 1> zxy;
 
 template <glm::length_t N, typename T, int... Components>
 glm::vec<sizeof...(Components), T> operator->*(const glm::vec<N, T>& v, Swizzle<Components...>) {
