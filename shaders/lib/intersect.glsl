@@ -14,6 +14,7 @@ struct Triangle {
 
 struct TriangleHit {
     bool hit;
+    bool front;      // the ray comes from the side where the corners run counter-clockwise
     float t;         // distance in units of the direction's length
     vec2 barycentric;  // of v1 and v2
 };
@@ -31,13 +32,45 @@ float sumOfThree(float a, float b, float c) {
     return sum;
 }
 
+// The error of a product that was rounded to `product`, exactly (Veltkamp's splitting, Dekker, "A Floating-Point Technique
+// for Extending the Available Precision", Numerische Mathematik 18, 1971).
+float productError(float a, float b, float product) {
+    precise float wideA = 4097.0 * a;
+    precise float highA = wideA - (wideA - a);
+    precise float lowA = a - highA;
+    precise float wideB = 4097.0 * b;
+    precise float highB = wideB - (wideB - b);
+    precise float lowB = b - highB;
+    precise float error = ((highA * highB - product) + highA * lowB + lowA * highB) + lowA * lowB;
+    return error;
+}
+
+// Twice the signed area of the triangle that the edge from p to q makes with the ray, in the plane across it; that of the
+// edge from q to p is the exact negative.
+float edgeFunction(vec2 p, vec2 q) {
+    precise float area = q.x * p.y - q.y * p.x;
+    return area;
+}
+
+// The side of the edge from p to q on which the ray passes, as the sign of the result, where edgeFunction is 0: by the
+// exact area, and on the edge itself as if the ray were moved a little along U and much less along V (simulation of
+// simplicity: Edelsbrunner and Muecke, 1990). So a ray passes one of the triangles at a shared edge or vertex.
+float sideOfEdge(vec2 p, vec2 q) {
+    precise float first = q.x * p.y;
+    precise float second = q.y * p.x;
+    precise float area = productError(q.x, p.y, first) - productError(q.y, p.x, second);
+    float moved = q.y != p.y ? q.y - p.y : p.x - q.x;
+    return area != 0.0 ? area : moved;
+}
+
 // Watertight: a vertex is projected along the ray by arithmetic that depends on the vertex and the ray alone, and the
 // edge functions of the two triangles at an edge are exact negatives, so that a ray cannot pass between them (the
 // principle of Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, with an orthonormal
 // basis in place of the shear). Both sides are hit. A degenerate triangle is not. Distance and weights are the same to
 // the bit whichever corner comes first, so that copies of a triangle are met at one distance.
-// `axisU`, `axisV` and `direction` are orthonormal.
-TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 axisU, vec3 axisV) {
+// `axisU`, `axisV` and `direction` are orthonormal. `once`: of the triangles that share an edge or a vertex the ray hits
+// one for each time that it passes through the surface; else it may hit all of them.
+TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 axisU, vec3 axisV, bool once) {
     vec3 a = tri.v0 - origin;
     vec3 b = tri.v1 - origin;
     vec3 c = tri.v2 - origin;
@@ -47,9 +80,9 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     precise float by = dot(b, axisV);
     precise float cx = dot(c, axisU);
     precise float cy = dot(c, axisV);
-    precise float u = cx * by - cy * bx;
-    precise float v = ax * cy - ay * cx;
-    precise float w = bx * ay - by * ax;
+    float u = edgeFunction(vec2(bx, by), vec2(cx, cy));
+    float v = edgeFunction(vec2(cx, cy), vec2(ax, ay));
+    float w = edgeFunction(vec2(ax, ay), vec2(bx, by));
     precise float det = sumOfThree(u, v, w);
     // Of the corners. Products of lengths would leave the range of a float sooner than those of areas do.
     precise vec3 weights = vec3(u, v, w) * (1.0 / det);
@@ -59,7 +92,14 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     precise float tc = weights.z * dot(c, direction);
     precise float t = sumOfThree(ta, tb, tc);
     bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
-    return TriangleHit(inside && det != 0.0, t, vec2(weights.y, weights.z));
+    // A loop, because only these skip what no lane needs.
+    for (int i = once && inside && (u == 0.0 || v == 0.0 || w == 0.0) ? 0 : 1; i < 1; i++) {
+        float sideU = u != 0.0 ? u : sideOfEdge(vec2(bx, by), vec2(cx, cy));
+        float sideV = v != 0.0 ? v : sideOfEdge(vec2(cx, cy), vec2(ax, ay));
+        float sideW = w != 0.0 ? w : sideOfEdge(vec2(ax, ay), vec2(bx, by));
+        inside = min(sideU, min(sideV, sideW)) > 0.0 || max(sideU, max(sideV, sideW)) < 0.0;
+    }
+    return TriangleHit(inside && det != 0.0, det > 0.0, t, vec2(weights.y, weights.z));
 }
 
 // The inverse of a direction component, large and finite where it is 0.

@@ -146,7 +146,7 @@ void visitNode(inout Traversal r) {
 }
 
 void testTriangle(inout Traversal r, Triangle tri, uint index, bool ordered) {
-    TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV);
+    TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV, ordered);
     bool accepted = h.hit && h.t < r.t && h.t > r.tMin;
     if (ordered) {  // coincident surfaces are met one after the other
         bool after = h.t > r.tMin || (h.t == r.tMin && tri.primitive > r.afterPrimitive);

@@ -43,8 +43,8 @@ const ShaderLibrary& intersect() {
 std::vector<ShotHit> shoot(const std::vector<Shot>& shots) {
     return intersect().evaluate<ShotHit>(R"(
         vec3 axisU, axisV;
-        orthonormalBasis(x0.direction, axisU, axisV);
-        TriangleHit h = intersectTriangle(Triangle(x0.v0, x0.v1, x0.v2, 0u, 0u), x0.origin, x0.direction, axisU, axisV);
+        orthonormalBasis(x0.direction, axisU, axisV, false);
+        TriangleHit h = intersectTriangle(Triangle(x0.v0, x0.v1, x0.v2, 0u, 0u), x0.origin, x0.direction, axisU, axisV, false);
         result = ShotHit(h.hit ? 1u : 0u, h.t, h.barycentric);)",
                                          shots);
 }
@@ -239,15 +239,16 @@ TEST(IntersectOracles, Triangle) {
         mirror::single::vec3 u, v;
         mirror::single::orthonormalBasis(s.direction, u, v);
         const auto h =
-            mirror::single::intersectTriangle({s.v0, s.v1, s.v2, 0, 0}, s.origin, s.direction, u, v);
+            mirror::single::intersectTriangle({s.v0, s.v1, s.v2, 0, 0}, s.origin, s.direction, u, v, false);
         return ShotHit{h.hit, h.t / static_cast<float>(referenceOf(s).longest), h.barycentric};
     };
     const auto twice = [](const Shot& s) {
         const glm::dvec3 d = s.direction;
         mirror::twice::vec3 u, v;
         mirror::twice::orthonormalBasis(d, u, v);
-        const auto h = mirror::twice::intersectTriangle(
-            {glm::dvec3(s.v0), glm::dvec3(s.v1), glm::dvec3(s.v2), 0, 0}, glm::dvec3(s.origin), d, u, v);
+        const auto h =
+            mirror::twice::intersectTriangle({glm::dvec3(s.v0), glm::dvec3(s.v1), glm::dvec3(s.v2), 0, 0},
+                                             glm::dvec3(s.origin), d, u, v, false);
         return ShotHit{h.hit, static_cast<float>(h.t / referenceOf(s).longest), glm::vec2(h.barycentric)};
     };
     EXPECT_WITHIN_ORACLES("intersectTriangle", hits, Budget{4, 1e-5}, single, twice, all);

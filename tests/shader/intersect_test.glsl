@@ -4,7 +4,7 @@
 TriangleHit shoot(Triangle tri, vec3 origin, vec3 direction) {
     vec3 axisU, axisV;
     orthonormalBasis(direction, axisU, axisV);
-    return intersectTriangle(tri, origin, direction, axisU, axisV);
+    return intersectTriangle(tri, origin, direction, axisU, axisV, testIndex() % 2u == 0u);
 }
 
 Triangle triangleOf(vec3 a, vec3 b, vec3 c) { return Triangle(a, b, c, 7u, 0u); }

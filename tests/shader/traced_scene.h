@@ -98,7 +98,7 @@ inline ShaderLibrary traversalOf(const DeviceTree& tree) {
         void closestOfAll(uint count, inout Traversal r) {
             for (uint i = 0u; i < count; i++) {
                 Triangle tri = fetchTriangle(i);
-                TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV);
+                TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV, true);
                 bool after = h.t > r.tMin || (h.t == r.tMin && tri.primitive > r.afterPrimitive);
                 if (h.hit && after && (h.t < r.t || (h.t == r.t && tri.primitive < r.primitive))) {
                     r.t = h.t;

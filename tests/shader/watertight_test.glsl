@@ -40,17 +40,16 @@ void makeMesh(bool icosahedron, float scale, vec3 offset) {
 
 struct Crossings { uint front; uint back; float nearest; };
 
-Crossings crossingsOf(vec3 origin, vec3 direction) {
+Crossings crossingsOf(vec3 origin, vec3 direction, bool once) {
     vec3 axisU, axisV;
     orthonormalBasis(direction, axisU, axisV);
     Crossings found = Crossings(0u, 0u, 1e30);
     for (uint i = 0u; i < faceCount; i++) {
         uvec3 f = face(i);
         Triangle tri = Triangle(corners[f.x], corners[f.y], corners[f.z], i, 0u);
-        TriangleHit h = intersectTriangle(tri, origin, direction, axisU, axisV);
-        bool front = dot(cross(tri.v1 - tri.v0, tri.v2 - tri.v0), direction) < 0.0;
-        found.front += h.hit && front ? 1u : 0u;
-        found.back += h.hit && !front ? 1u : 0u;
+        TriangleHit h = intersectTriangle(tri, origin, direction, axisU, axisV, once);
+        found.front += h.hit && h.front ? 1u : 0u;
+        found.back += h.hit && !h.front ? 1u : 0u;
         found.nearest = h.hit && h.t > 0.0 ? min(found.nearest, h.t) : found.nearest;
     }
     return found;
@@ -72,7 +71,7 @@ void countLeaks(bool icosahedron, float scale, vec3 offset) {
     uint leaks = 0u;
     for (uint i = 0u; i < 64u; i++) {
         vec3 origin = offset + (target() - offset) * randomFloat(0.0, 0.05);
-        Crossings found = crossingsOf(origin, normalize(target() - origin));
+        Crossings found = crossingsOf(origin, normalize(target() - origin), i % 2u == 0u);
         leaks += found.nearest < 1e30 ? 0u : 1u;
     }
     EXPECT_EQ(leaks, 0u);
@@ -98,26 +97,84 @@ TEST(NothingLeaksWhereEdgeFunctionsVanish) {
     vec3 d = vec3(0.0);
     uint axis = randomUint() % 3u;
     d[axis] = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
-    EXPECT_LT(crossingsOf(vec3(0.0), d).nearest, 1e30);
+    EXPECT_LT(crossingsOf(vec3(0.0), d, true).nearest, 1e30);
     d[(axis + 1u) % 3u] = randomFloat(-2.0, 2.0);
-    EXPECT_LT(crossingsOf(vec3(0.0), normalize(d)).nearest, 1e30);
+    EXPECT_LT(crossingsOf(vec3(0.0), normalize(d), true).nearest, 1e30);
     // From outside, straight at a corner and along an edge.
-    EXPECT_LT(crossingsOf(vec3(-3.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)).nearest, 1e30);
-    EXPECT_LT(crossingsOf(vec3(-0.25, -3.0, 0.0), vec3(0.0, 1.0, 0.0)).nearest, 1e30);
+    EXPECT_LT(crossingsOf(vec3(-3.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0), true).nearest, 1e30);
+    EXPECT_LT(crossingsOf(vec3(-0.25, -3.0, 0.0), vec3(0.0, 1.0, 0.0), true).nearest, 1e30);
 }
 
-// What goes in comes out, at silhouettes, too.
+// What goes in comes out, at silhouettes, too; where every surface is met once, as often.
 TEST_N(RaysFromOutsideEnterIffTheyLeave, 16384) {
     makeMesh(true, randomScale(-10.0, 20.0), vec3(0.0));
     uint unmatched = 0u;
+    uint unequal = 0u;
     uint met = 0u;
     for (uint i = 0u; i < 64u; i++) {
         vec3 p = target();
         vec3 origin = p + randomDirection() * length(corners[0]) * randomFloat(4.0, 8.0);
-        Crossings found = crossingsOf(origin, normalize(p - origin));
+        bool once = i % 2u == 0u;
+        Crossings found = crossingsOf(origin, normalize(p - origin), once);
         met += found.front > 0u ? 1u : 0u;
         unmatched += (found.front > 0u) == (found.back > 0u) ? 0u : 1u;
+        unequal += once && found.front != found.back ? 1u : 0u;
     }
     EXPECT_GT(met, 16u);
     EXPECT_EQ(unmatched, 0u);
+    EXPECT_EQ(unequal, 0u);
+}
+
+// Along the edges and through the corners of the regular octahedron, where edge functions are exactly 0.
+TEST(WhereEdgeFunctionsVanishASurfaceIsMetOnce) {
+    faceCount = 8u;
+    for (uint i = 0u; i < 6u; i++) {
+        corners[i] = vec3(0.0);
+        corners[i][i / 2u] = (i & 1u) == 0u ? 1.0 : -1.0;
+    }
+    uint axis = randomUint() % 3u;
+    vec3 d = vec3(0.0);
+    d[axis] = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
+    d[(axis + 1u) % 3u] = testIndex() % 2u == 0u ? 0.0 : float(int(randomUint() % 9u) - 4);
+    Crossings found = crossingsOf(vec3(0.0), normalize(d), true);
+    // Behind the ray's origin, too: a line crosses the closed surface twice.
+    EXPECT_EQ(found.front + found.back, 2u);
+}
+
+// A sheet of triangles of side 1, seen from as far as a million of them: each ray crosses it once.
+const uint kSheet = 6u;
+
+TEST_N(ASheetIsCrossedOnceFromAnyDistance, 8192) {
+    vec3 x, y;
+    vec3 normal = randomDirection();
+    orthonormalBasis(normal, x, y);
+    uint wrong = 0u;
+    for (uint i = 0u; i < 8u; i++) {
+        vec3 towards = randomDirection();
+        towards = dot(towards, normal) < 0.0 ? -towards : towards;
+        vec3 origin = normalize(towards + normal) * randomScale(1.0, 20.0);
+        // A corner, a point of an edge, or any.
+        uint kind = randomUint() % 4u;
+        vec2 cell = vec2(float(int(randomUint() % 3u) - 1), float(int(randomUint() % 3u) - 1));
+        float s = randomFloat();
+        vec2 inCell = kind == 0u ? vec2(0.0) : (kind == 1u ? vec2(s, 0.0) : (kind == 2u ? vec2(s, s) : randomVec2()));
+        vec3 p = (cell.x + inCell.x) * x + (cell.y + inCell.y) * y;
+        vec3 direction = normalize(p - origin);
+        vec3 axisU, axisV;
+        orthonormalBasis(direction, axisU, axisV);
+        uint crossings = 0u;
+        for (uint k = 0u; k < 2u * kSheet * kSheet; k++) {
+            vec2 corner = vec2(float(int((k >> 1u) % kSheet)), float(int((k >> 1u) / kSheet))) - 3.0;
+            vec2 a = corner + ((k & 1u) == 0u ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
+            vec2 far = corner + 1.0;
+            vec3 v0 = corner.x * x + corner.y * y;
+            vec3 v1 = a.x * x + a.y * y;
+            vec3 v2 = far.x * x + far.y * y;
+            // Both windings, as exporters write them.
+            Triangle tri = (k & 2u) == 0u ? Triangle(v0, v1, v2, k, 0u) : Triangle(v0, v2, v1, k, 0u);
+            crossings += intersectTriangle(tri, origin, direction, axisU, axisV, true).hit ? 1u : 0u;
+        }
+        wrong += crossings == 1u ? 0u : 1u;
+    }
+    EXPECT_EQ(wrong, 0u);
 }
