@@ -27,6 +27,13 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
     return out;
 }
 
+std::string describeOverflow(const Film& film) {
+    return fmt::format(
+        "some light is brighter than the film holds and was clamped: its largest radiance is {:.3g}, at least "
+        "2^28 times the mean of the picture at a first look",
+        film.largestRadiance());
+}
+
 void WriteAll::operator()(const std::string& file, const std::function<void()>& step) {
     const auto fail = [&](const Error& error) {
         if (failure_) {

@@ -34,8 +34,6 @@ void writeImages(WriteAll& write, const std::vector<std::string>& files, const I
                  const ImageOptions& options);
 
 /// What to tell of a film that overflowed.
-inline constexpr const char* kFilmOverflowed =
-    "some pixels are brighter than the film can hold and were clamped; does the light grow with every "
-    "bounce?";
+std::string describeOverflow(const Film& film);
 
 }  // namespace duolux

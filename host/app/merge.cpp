@@ -69,7 +69,7 @@ void runMerge(const MergeOptions& options) {
         }
     }
     if (sum->state.filmOverflowed || sum->state.film.overflowed()) {
-        warn(kFilmOverflowed);
+        warn(describeOverflow(sum->state.film));
     }
     WriteAll write;
     writeImages(write, options.outputs, sum->state.film.rows(),

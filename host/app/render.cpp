@@ -140,7 +140,7 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl&
     if (statistics.nonFiniteSamples > 0)
         warnings.push_back(
             fmt::format("{} samples were not finite and were dropped", statistics.nonFiniteSamples));
-    if (statistics.filmOverflowed) warnings.emplace_back(kFilmOverflowed);
+    if (statistics.filmOverflowed) warnings.push_back(describeOverflow(output.film));
     return warnings;
 }
 

@@ -172,7 +172,7 @@ void SceneSuite::State::addFilms() {
     scene.render.width = options.width;
     scene.render.height = options.height;
     scene.render.bounces = 1;
-    const auto film = std::make_shared<Film>(options.width, options.height, deviceScene.quantum);
+    const auto film = std::make_shared<Film>(options.width, options.height, 0x1p-30f);
 
     const auto pixels =
         std::make_shared<std::vector<std::uint32_t>>(pixelOrder(options.width, options.height));
@@ -181,7 +181,7 @@ void SceneSuite::State::addFilms() {
             static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxSlots));
         const auto gathering =
             std::make_shared<PathKernel>(device, deviceScene, scene, *pixels, slots, false);
-        gathering->submit(0, {0, slots, 0, 1});
+        gathering->submit(0, {0, slots, 0, 1}, film->quantum());
         gathering->wait(0);
         addFilm("path", slots, sizeof(shared::SlotResult),
                 [pixels, gathering, film] { gathering->addTo(*film, 0); });

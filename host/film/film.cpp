@@ -1,30 +1,14 @@
 #include "host/film/film.h"
 
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "host/base/parallel.h"
+#include "shaders/shared/path_layout.h"
 
 namespace duolux {
-
-namespace {
-
-std::int64_t saturatingAdd(std::int64_t a, std::int64_t b, bool& overflowed) {
-    std::int64_t sum = 0;
-    if (!__builtin_add_overflow(a, b, &sum)) return sum;
-    overflowed = true;
-    return b > 0 ? std::numeric_limits<std::int64_t>::max() : std::numeric_limits<std::int64_t>::min();
-}
-
-void addTo(Film::PixelSum& total, const Film::PixelSum& term, bool& overflowed) {
-    for (int c = 0; c < 3; ++c) {
-        total.invisible[c] = saturatingAdd(total.invisible[c], term.invisible[c], overflowed);
-        total.visible[c] = saturatingAdd(total.visible[c], term.visible[c], overflowed);
-    }
-}
-
-}  // namespace
 
 Film::Film(std::uint32_t width, std::uint32_t height, float quantum)
     : width_(width),
@@ -34,32 +18,94 @@ Film::Film(std::uint32_t width, std::uint32_t height, float quantum)
       samples_(std::size_t{width} * height, 0) {}
 
 Film::Film(std::uint32_t width, std::uint32_t height, float quantum, std::vector<PixelSum> sums,
-           std::vector<std::uint32_t> samples, std::vector<PixelSum> lightSums, std::uint64_t lightPaths)
+           std::vector<std::uint32_t> samples, std::vector<PixelSum> lightSums, std::uint64_t lightPaths,
+           Carries carries)
     : width_(width),
       height_(height),
       quantum_(quantum),
       sums_(std::move(sums)),
       samples_(std::move(samples)),
       lightSums_(std::move(lightSums)),
-      lightPaths_(lightPaths) {
+      lightPaths_(lightPaths),
+      carries_(std::move(carries)) {
     assert(sums_.size() == std::size_t{width} * height && samples_.size() == sums_.size());
     assert(lightSums_.empty() || lightSums_.size() == sums_.size());
 }
 
+void Film::setQuantum(float quantum) {
+    assert(totalSamples() == 0 && lightPaths_ == 0);
+    quantum_ = quantum;
+}
+
+void Film::carry(std::uint64_t sum, std::int64_t count) {
+    if (count == 0) return;
+    const auto entry = carries_.try_emplace(sum, 0).first;
+    entry->second += count;
+    if (entry->second == 0) carries_.erase(entry);
+}
+
+void Film::addTo(PixelSum& total, const PixelSum& term, std::uint64_t firstSum) {
+    const auto addOne = [&](std::int64_t& a, std::int64_t b, std::uint64_t sum) {
+        if (__builtin_add_overflow(a, b, &a)) carry(sum, b > 0 ? 1 : -1);
+    };
+    for (unsigned c = 0; c < 3; ++c) {
+        addOne(total.invisible[c], term.invisible[c], firstSum + c);
+        addOne(total.visible[c], term.visible[c], firstSum + 3 + c);
+    }
+}
+
+void Film::refine(int shift) {
+    assert(shift >= 0 && shift < 63);
+    quantum_ = std::ldexp(quantum_, -shift);
+    Carries before;
+    before.swap(carries_);
+    __extension__ using Int128 = __int128;
+    const auto shiftOne = [&](std::int64_t& value, std::uint64_t sum) {
+        const auto found = before.find(sum);
+        const Int128 high = found == before.end() ? 0 : found->second;
+        const Int128 wide = Int128{value} << shift;
+        value = static_cast<std::int64_t>(wide);
+        carry(sum,
+              static_cast<std::int64_t>((wide - value) >> 64) + static_cast<std::int64_t>(high << shift));
+    };
+    const auto shiftAll = [&](std::vector<PixelSum>& sums, std::uint64_t firstSum) {
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            for (unsigned c = 0; c < 3; ++c) {
+                shiftOne(sums[i].invisible[c], firstSum + 6 * i + c);
+                shiftOne(sums[i].visible[c], firstSum + 6 * i + 3 + c);
+            }
+        }
+    };
+    shiftAll(sums_, 0);
+    shiftAll(lightSums_, firstLightSum());
+}
+
 void Film::add(const Film& other) {
-    assert(other.sums_.size() == sums_.size() && other.quantum_ == quantum_);
+    assert(other.sums_.size() == sums_.size());
+    const int shift = std::ilogb(quantum_) - std::ilogb(other.quantum_);
+    if (shift > 0) refine(shift);
+    if (shift < 0) {
+        Film finer = other;
+        finer.refine(-shift);
+        add(finer);
+        return;
+    }
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-        addTo(sums_[i], other.sums_[i], overflowed_);
+        addTo(sums_[i], other.sums_[i], 6 * i);
         samples_[i] += other.samples_[i];
     }
-    addLight(0, other.lightSums_);
+    if (!other.lightSums_.empty()) lightSums_.resize(sums_.size(), PixelSum{});
+    for (std::size_t i = 0; i < other.lightSums_.size(); ++i)
+        addTo(lightSums_[i], other.lightSums_[i], firstLightSum() + 6 * i);
     countLightPaths(other.lightPaths_);
+    for (const auto& [sum, count] : other.carries_)
+        carry(sum, count);
     overflowed_ = overflowed_ || other.overflowed_;
 }
 
 void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        addTo(sums_[pixels[i]], sums[i], overflowed_);
+        addTo(sums_[pixels[i]], sums[i], 6 * std::uint64_t{pixels[i]});
         samples_[pixels[i]] += samples;
     }
 }
@@ -76,7 +122,7 @@ void Film::addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums) {
                 overflowed_ = true;
             }
         }
-        addTo(lightSums_[firstPixel + i], sum, overflowed_);
+        addTo(lightSums_[firstPixel + i], sum, firstLightSum() + 6 * (firstPixel + i));
     }
 }
 
@@ -85,6 +131,43 @@ std::uint64_t Film::totalSamples() const {
     for (std::uint32_t samples : samples_)
         total += samples;
     return total;
+}
+
+double Film::largestRadiance() const {
+    return static_cast<double>(shared::kFilmLargest) * static_cast<double>(quantum_);
+}
+
+glm::dvec3 Film::meanOf(std::size_t pixel, int component) const {
+    const auto quantum = static_cast<double>(quantum_);
+    const double scale = samples_[pixel] > 0 ? quantum / samples_[pixel] : 0.0;
+    const double lightScale =
+        lightPaths_ > 0 ? quantum * static_cast<double>(sums_.size()) / static_cast<double>(lightPaths_)
+                        : 0.0;
+    const auto value = [&](const PixelSum& sums, int channel, std::uint64_t firstSum) {
+        const std::int64_t low = (component == 0 ? sums.invisible : sums.visible)[channel];
+        if (carries_.empty()) return static_cast<double>(low);
+        const auto carried =
+            carries_.find(firstSum + 6 * pixel + static_cast<unsigned>(3 * component + channel));
+        return static_cast<double>(low) +
+               (carried == carries_.end() ? 0.0 : 0x1p64 * static_cast<double>(carried->second));
+    };
+    glm::dvec3 mean;
+    for (int c = 0; c < 3; ++c) {
+        mean[c] = value(sums_[pixel], c, 0) * scale;
+        if (!lightSums_.empty()) mean[c] += value(lightSums_[pixel], c, firstLightSum()) * lightScale;
+    }
+    return mean;
+}
+
+bool Film::overflowed() const {
+    if (overflowed_) return true;
+    const glm::dvec3 largest(largestRadiance());
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+        for (const int component : {0, 1}) {
+            if (glm::any(glm::greaterThan(meanOf(i, component), largest))) return true;
+        }
+    }
+    return false;
 }
 
 ImageRows Film::rows() const {
@@ -96,23 +179,12 @@ ImageRows Film::rows() const {
 
 void Film::readRows(std::uint32_t firstRow, std::span<glm::vec3> invisible,
                     std::span<glm::vec3> visible) const {
-    const auto quantum = static_cast<double>(quantum_);
-    const double pixels = static_cast<double>(sums_.size());
-    const double lightScale = lightPaths_ > 0 ? quantum * pixels / static_cast<double>(lightPaths_) : 0.0;
+    const glm::dvec3 largest(largestRadiance());
     const std::size_t first = std::size_t{firstRow} * width_;
     parallelFor(visible.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const PixelSum& sum = sums_[first + i];
-            const double scale = samples_[first + i] > 0 ? quantum / samples_[first + i] : 0.0;
-            const PixelSum light = lightSums_.empty() ? PixelSum{} : lightSums_[first + i];
-            const auto value = [&](std::int64_t gathered, std::int64_t shot) {
-                return static_cast<float>(static_cast<double>(gathered) * scale +
-                                          static_cast<double>(shot) * lightScale);
-            };
-            for (int c = 0; c < 3; ++c) {
-                invisible[i][c] = value(sum.invisible[c], light.invisible[c]);
-                visible[i][c] = value(sum.visible[c], light.visible[c]);
-            }
+            invisible[i] = glm::vec3(glm::min(meanOf(first + i, 0), largest));
+            visible[i] = glm::vec3(glm::min(meanOf(first + i, 1), largest));
         }
     });
 }

@@ -239,7 +239,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
         .lightCount = static_cast<std::uint32_t>(table.lights.size()),
         .emitterRoot = trees.emitterRoot,
         .emitterBounds = widenedBounds(geometry, emitters),
-        .quantum = filmQuantum(scene),
+        .brightestEmission = brightestEmission(scene),
         .buildSeconds = buildSeconds,
         .nodes = Buffer::upload<shared::WideNode>(device, treeUse, trees.nodes, "BVH nodes"),
         .triangles = Buffer::upload<shared::DevicePair>(

@@ -29,7 +29,7 @@ struct DeviceScene {
     std::uint32_t lightCount = 0;   ///< triangles that next-event estimation samples
     std::uint32_t emitterRoot = 0;  ///< as in shared::PathParams
     Bounds emitterBounds{};         ///< of what emits, widened by more than rounding can move a hit
-    float quantum = 0.0f;           ///< of the film
+    double brightestEmission = 0.0;  ///< radiance
     double buildSeconds = 0.0, uploadSeconds = 0.0;
 
     Buffer nodes;  ///< empty with Layout::kRayQuery

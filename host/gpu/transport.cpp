@@ -1,8 +1,6 @@
 #include "host/gpu/transport.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace duolux {
 
@@ -87,28 +85,16 @@ TransportTraits analyseTransport(const Scene& scene) {
     return traits;
 }
 
-float filmQuantum(const Scene& scene) {
+double brightestEmission(const Scene& scene) {
+    const std::vector<bool> used = usedMaterials(scene);
     double brightest = 0.0;
-    double power = 0.0;
-    const Geometry& geometry = scene.geometry;
-    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
-        const Emission& emission = scene.materials[geometry.materials[i]].emission;
-        if (!emission.any()) continue;
-        const glm::vec3 e = glm::max(emission.invisible, emission.visible);
-        const double largest = std::max({e.x, e.y, e.z});
-        brightest = std::max(brightest, largest);
-        const glm::dvec3 a = geometry.positions[geometry.triangles[i].x];
-        const glm::dvec3 b = geometry.positions[geometry.triangles[i].y];
-        const glm::dvec3 c = geometry.positions[geometry.triangles[i].z];
-        power += largest * std::numbers::pi * glm::length(glm::cross(b - a, c - a)) / 2.0;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (!used[i]) continue;
+        const Emission& emission = scene.materials[i].emission;
+        const glm::dvec3 e = glm::max(emission.invisible, emission.visible);
+        brightest = std::max({brightest, e.x, e.y, e.z});
     }
-    if (!(brightest > 0.0)) return std::ldexp(1.0f, -30);
-    const Bounds bounds = boundsOf(geometry);
-    const glm::dvec3 size = glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower);
-    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-    const double spread = area > 0.0 ? power / (std::numbers::pi * area) : brightest;
-    const double smallest = std::max(spread * 0x1p-30, brightest * 0x1p-40);
-    return static_cast<float>(std::exp2(std::clamp(std::ceil(std::log2(smallest)), -120.0, 120.0)));
+    return brightest;
 }
 
 }  // namespace duolux

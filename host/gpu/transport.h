@@ -32,9 +32,7 @@ TransportTraits analyseTransport(const Scene& scene);
 /// Only materials that triangles refer to count: true at their indices.
 std::vector<bool> usedMaterials(const Scene& scene);
 
-/// The unit of the film for a scene, a power of two: a 2^-30th of the radiance that the emitted power would
-/// give if it were spread over the scene's bounds, but at least a 2^-40th of the brightest emission, so that
-/// 2^20 samples of that fit into 64 bits.
-float filmQuantum(const Scene& scene);
+/// The largest radiance that anything emits, of any channel and component; 0 if nothing does.
+double brightestEmission(const Scene& scene);
 
 }  // namespace duolux

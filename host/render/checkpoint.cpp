@@ -18,7 +18,7 @@ namespace {
 // The file: kMagic, the length of the header as uint32, the header (JSON), samples per pixel (uint32), sums
 // of pixels, sums of light paths if there are any (six int64 a pixel each), and a checksum of all before it
 // (uint64). Little-endian, as all hosts are.
-constexpr char kMagic[9] = "DUOLUXC1";
+constexpr char kMagic[9] = "DUOLUXC2";
 constexpr std::size_t kMagicBytes = 8;
 
 /// FNV-1a over 64-bit words (Fowler, Noll, Vo), the last one filled up with zeros: against damage, not
@@ -91,6 +91,7 @@ std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderSta
     header["film"] = {{"quantum", film.quantum()},
                       {"light_paths", film.lightPaths()},
                       {"light_sums", !film.lightSums().empty()},
+                      {"carries", film.carries()},
                       {"overflowed", statistics.filmOverflowed || film.overflowed()},
                       {"last_bounce", statistics.lastBounceRadiance},
                       {"previous_bounce", statistics.previousBounceRadiance}};
@@ -141,7 +142,8 @@ Checkpoint parse(std::string_view bytes, const std::function<void()>& fail) {
     auto lightSums = light ? take<Film::PixelSum>(bytes, pixels) : std::vector<Film::PixelSum>();
     return {std::move(origin),
             {Film(width, height, film.at("quantum").get<float>(), std::move(sums), std::move(samples),
-                  std::move(lightSums), film.at("light_paths").get<std::uint64_t>()),
+                  std::move(lightSums), film.at("light_paths").get<std::uint64_t>(),
+                  film.at("carries").get<Film::Carries>()),
              film.at("last_bounce").get<double>(), film.at("previous_bounce").get<double>(),
              film.at("overflowed").get<bool>()}};
 }

@@ -4,6 +4,7 @@
 
 #include "host/base/error.h"
 #include "host/render/context.h"
+#include "host/render/film_quantum.h"
 #include "host/render/path_kernel.h"
 #include "host/render/pixel_order.h"
 
@@ -61,6 +62,7 @@ class Gatherer {
         if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.laneSamples();
         context_.begin();
+        if (control.resume == nullptr) context_.film.setQuantum(chooseQuantum(kernel));
         unsigned submitted = 0;
         unsigned received = 0;
         bool timeIsUp = false;
@@ -72,7 +74,7 @@ class Gatherer {
                 if (statistics.stopped) wanted = Wanted::kRetries;
                 const auto range = schedule.next(context_.secondsPerSample, kernel.laneSamples(), wanted);
                 if (!range) break;
-                kernel.submit(submitted++ % 2, *range);
+                kernel.submit(submitted++ % 2, *range, context_.film.quantum());
             }
             if (submitted == received) break;
             receive(kernel, received++ % 2, schedule);
@@ -82,6 +84,42 @@ class Gatherer {
         }
         statistics.stopped = statistics.samples < context_.samplesTotal();
         context_.reportProgress();
+    }
+
+    /// By the first samples of a few pixels: the same ones whatever range of samples is to be taken.
+    float chooseQuantum(PathKernel& kernel) {
+        constexpr std::uint32_t kSamples = 4096;
+        const std::uint32_t end = kernel.firstLookSlot() + kernel.lookSlots();
+        const std::uint32_t wanted = std::min(PathKernel::kMaxSamples, kSamples / kernel.lookSlots());
+        return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
+            FirstLook sum;
+            WorkRange range{kernel.firstLookSlot(), 0, 0, wanted};
+            while (range.firstSlot < end) {
+                range.slots = std::min(kernel.maxSlots(), end - range.firstSlot);
+                range.samples = std::min(wanted, kernel.laneSamples());
+                kernel.submit(0, range, quantum);
+                const PathKernel::Results results = kernel.wait(0);
+                context_.received(results.deviceSeconds, range.size());
+                if (!results.complete) {
+                    takeLess(kernel, results);
+                    continue;
+                }
+                const FirstLook look = kernel.look(0);
+                sum.invisible += look.invisible;
+                sum.visible += look.visible;
+                sum.samples += look.samples;
+                sum.clamped = sum.clamped || look.clamped;
+                range.firstSlot += range.slots;
+            }
+            return sum;
+        });
+    }
+
+    /// Some drivers end all loops of an invocation after a fixed number of iterations, without a word.
+    void takeLess(PathKernel& kernel, const PathKernel::Results& results) {
+        if (results.laneSamples == 1) context_.failCutShort();
+        kernel.limitLaneSamples(results.laneSamples / 2);
+        ++context_.statistics.dispatchesCutShort;
     }
 
     std::vector<std::uint32_t> samplesOfSlots() const {
@@ -102,11 +140,7 @@ class Gatherer {
             schedule.traced(results.range);
             return;
         }
-        // Some drivers end all loops of an invocation after a fixed number of iterations, without a word.
-        // What this happened to is thrown away.
-        if (results.laneSamples == 1) context_.failCutShort();
-        kernel.limitLaneSamples(results.laneSamples / 2);
-        ++context_.statistics.dispatchesCutShort;
+        takeLess(kernel, results);
         schedule.retry(results.range);
     }
 

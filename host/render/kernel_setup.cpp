@@ -43,12 +43,14 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
         kUndisplayedWeight;
     params.rowWeight = rows / (rows.x + rows.y);
     params.display = scene.display;
-    params.inverseQuantum = 1.0f / deviceScene.quantum;
     params.lightCount = deviceScene.lightCount;
     params.emitterRoot = deviceScene.emitterRoot;
     params.emitterLower = deviceScene.emitterBounds.lower;
     params.emitterUpper = deviceScene.emitterBounds.upper;
     params.imageArea = plane.area;
+    const RayStart start = rayStart(camera, boundsOf(scene.geometry));
+    params.cameraStart = start.position;
+    params.cameraStartDepth = start.depth;
     return params;
 }
 

@@ -107,7 +107,7 @@ std::uint64_t LightKernel::deviceBytes() const {
     return bytes;
 }
 
-void LightKernel::submit(unsigned place, const PathRange& range) {
+void LightKernel::submit(unsigned place, const PathRange& range, float quantum) {
     assert(range.count > 0 && range.count <= maxPaths_);
     const std::uint32_t teamPaths = teams_.share(range.count, lanePaths_);
     const std::uint32_t lanes = (range.count + teamPaths - 1) / teamPaths * teams_.lanes();
@@ -117,7 +117,8 @@ void LightKernel::submit(unsigned place, const PathRange& range) {
                                      range.count,
                                      teamPaths,
                                      place * maxLanes_,
-                                     teams_.firstTeam(place)};
+                                     teams_.firstTeam(place),
+                                     1.0f / quantum};
     commands_[place].submit("tracing light paths", [&](const vk::raii::CommandBuffer& commands) {
         teams_.record(commands, kernel_, push, place, range.count, teamPaths);
     });

@@ -42,8 +42,9 @@ class LightKernel {
     std::uint32_t lanePaths() const { return lanePaths_; }
     void limitLanePaths(std::uint32_t paths) { lanePaths_ = std::min(lanePaths_, paths); }
 
-    /// Two dispatches may be in flight, in the places 0 and 1. Each adds to the film on the device.
-    void submit(unsigned place, const PathRange& range);
+    /// Two dispatches may be in flight, in the places 0 and 1. Each adds to the film on the device, whose
+    /// unit is `quantum`.
+    void submit(unsigned place, const PathRange& range, float quantum);
 
     struct Results {
         PathRange range;

@@ -27,16 +27,39 @@ std::vector<Binding> pathBindings(std::vector<Binding> bindings, const Buffer& p
     return bindings;
 }
 
+/// Pixels of a grid over the image, at most 64 x 64.
+std::vector<std::uint32_t> lookPixels(std::uint32_t width, std::uint32_t height) {
+    constexpr std::uint32_t kMost = 64;
+    const std::uint32_t columns = std::min(width, kMost), rows = std::min(height, kMost);
+    std::vector<std::uint32_t> pixels;
+    for (std::uint32_t row = 0; row < rows; ++row) {
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t x = (2 * column + 1) * width / (2 * columns);
+            const std::uint32_t y = (2 * row + 1) * height / (2 * rows);
+            pixels.push_back(y * width + x);
+        }
+    }
+    return pixels;
+}
+
+Buffer uploadPixels(const Device& device, std::span<const std::uint32_t> pixels,
+                    std::span<const std::uint32_t> look) {
+    std::vector<std::uint32_t> all(pixels.begin(), pixels.end());
+    all.insert(all.end(), look.begin(), look.end());
+    return Buffer::upload<std::uint32_t>(device, BufferUse::kTexels, all, "pixel order");
+}
+
 }  // namespace
 
 PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
                        std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm)
     : laneSamples_(lanePaths(deviceScene)),
       maxSlots_(maxSlots),
+      lookSlots_(std::min(scene.render.width, 64u) * std::min(scene.render.height, 64u)),
       pixels_(pixels),
       teams_(device, deviceScene.tuning, maxSlots),
       params_(uploadParams(device, deviceScene, scene)),
-      pixelOrder_(Buffer::upload(device, BufferUse::kTexels, pixels, "pixel order")),
+      pixelOrder_(uploadPixels(device, pixels, lookPixels(scene.render.width, scene.render.height))),
       results_(Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxSlots}, "results")),
       kernel_(device, "path",
               variantFor(deviceScene.tuning.layout, spirv::kPathKernelTexel, spirv::kPathKernelStorage,
@@ -49,13 +72,13 @@ std::uint64_t PathKernel::deviceBytes() const {
     return params_.allocated() + pixelOrder_.allocated() + results_.allocated() + teams_.deviceBytes();
 }
 
-void PathKernel::submit(unsigned place, const WorkRange& range) {
+void PathKernel::submit(unsigned place, const WorkRange& range, float quantum) {
     assert(range.slots <= maxSlots_ && range.samples <= std::min(kMaxSamples, laneSamples_));
     const std::uint32_t teamSlots = teams_.share(range.slots, laneSamples_ / range.samples);
     submitted_[place] = {range, teamSlots};
-    const shared::DispatchParams push{range.firstSlot,        range.slots, range.firstSample,
-                                      range.samples,          teamSlots,   place * maxSlots_,
-                                      teams_.firstTeam(place)};
+    const shared::DispatchParams push{range.firstSlot,         range.slots,   range.firstSample,
+                                      range.samples,           teamSlots,     place * maxSlots_,
+                                      teams_.firstTeam(place), 1.0f / quantum};
     commands_[place].submit("tracing paths", [&](const vk::raii::CommandBuffer& commands) {
         teams_.record(commands, kernel_, push, place, range.slots, teamSlots);
     });
@@ -67,7 +90,7 @@ PathKernel::Results PathKernel::wait(unsigned place) {
     return {range, teamSlots / teams_.lanes() * range.samples, teams_.complete(place), seconds};
 }
 
-PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
+PathKernel::Totals PathKernel::read(unsigned place) {
     results_.invalidate();
     const WorkRange& range = submitted_[place].range;
     const auto* slots =
@@ -89,8 +112,27 @@ PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
         totals.lastBounce += static_cast<double>(r.lastBounce);
         totals.previousBounce += static_cast<double>(r.previousBounce);
     }
+    return totals;
+}
+
+PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
+    const Totals totals = read(place);
+    const WorkRange& range = submitted_[place].range;
     film.add(pixels_.subspan(range.firstSlot, range.slots), sums_, range.samples);
     return totals;
+}
+
+FirstLook PathKernel::look(unsigned place) {
+    FirstLook look;
+    look.clamped = read(place).clamped;
+    look.samples = submitted_[place].range.size();
+    for (const Film::PixelSum& sum : sums_) {
+        for (int c = 0; c < 3; ++c) {
+            look.invisible += static_cast<double>(sum.invisible[c]) / 3.0;
+            look.visible += static_cast<double>(sum.visible[c]) / 3.0;
+        }
+    }
+    return look;
 }
 
 }  // namespace duolux

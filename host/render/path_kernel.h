@@ -8,6 +8,7 @@
 
 #include "host/film/film.h"
 #include "host/gpu/device_scene.h"
+#include "host/render/film_quantum.h"
 #include "host/render/schedule.h"
 #include "host/render/teams.h"
 #include "host/scene/scene.h"
@@ -40,9 +41,13 @@ class PathKernel {
     std::uint32_t laneSamples() const { return laneSamples_; }
     void limitLaneSamples(std::uint32_t samples) { laneSamples_ = std::min(laneSamples_, samples); }
 
+    /// The slots after those of `pixels` are some more, spread evenly over the image, for a first look at it.
+    std::uint32_t firstLookSlot() const { return static_cast<std::uint32_t>(pixels_.size()); }
+    std::uint32_t lookSlots() const { return lookSlots_; }
+
     /// Two dispatches may be in flight, in the places 0 and 1. A range has at most laneSamples() samples of a
-    /// slot.
-    void submit(unsigned place, const WorkRange& range);
+    /// slot. `quantum`: of the film.
+    void submit(unsigned place, const WorkRange& range, float quantum);
 
     struct Results {
         WorkRange range;
@@ -62,6 +67,8 @@ class PathKernel {
     /// Adds the sums of the dispatch in a place, which was waited for, to a film of the scene's size and
     /// quantum.
     Totals addTo(Film& film, unsigned place);
+    /// The same sums, over the slots.
+    FirstLook look(unsigned place);
 
   private:
     struct Submitted {
@@ -69,7 +76,9 @@ class PathKernel {
         std::uint32_t teamSlots = 0;
     };
 
-    std::uint32_t laneSamples_, maxSlots_;
+    Totals read(unsigned place);
+
+    std::uint32_t laneSamples_, maxSlots_, lookSlots_;
     std::span<const std::uint32_t> pixels_;
     std::vector<Film::PixelSum> sums_;  // of a dispatch
     Teams teams_;

@@ -112,9 +112,10 @@ DeviceScene upload(const Device& device, const Scene& scene, const TuningChoice&
     }
 }
 
-Film makeFilm(const RenderSettings& settings, float quantum) {
+/// The integrator sets its quantum.
+Film makeFilm(const RenderSettings& settings) {
     try {
-        return Film(settings.width, settings.height, quantum);
+        return Film(settings.width, settings.height, 1.0f);
     } catch (const std::bad_alloc&) {
         const std::uint64_t bytes = std::uint64_t{settings.width} * settings.height *
                                     (sizeof(Film::PixelSum) + sizeof(std::uint32_t));
@@ -144,13 +145,10 @@ void trace(RenderContext& context) {
 
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {
     DeviceScene deviceScene = upload(device, scene, control.tuning);
-    const float quantum = deviceScene.quantum;
-    RenderContext context{device, scene, control, std::move(deviceScene), makeFilm(scene.render, quantum),
-                          {}};
+    RenderContext context{device, scene, control, std::move(deviceScene), makeFilm(scene.render), {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;
-        assert(state.film.quantum() == quantum && state.film.width() == scene.render.width &&
-               state.film.height() == scene.render.height);
+        assert(state.film.width() == scene.render.width && state.film.height() == scene.render.height);
         context.film = state.film;
         context.samplesResumed = state.film.totalSamples() + state.film.lightPaths();
         context.lastBounce = state.lastBounceRadiance * static_cast<double>(context.samplesResumed);

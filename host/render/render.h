@@ -79,7 +79,7 @@ struct RenderStatistics {
     std::uint64_t samples = 0;             ///< pixel samples taken, or light paths
     std::uint64_t cameraRays = 0, lightRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
     std::uint64_t nonFiniteSamples = 0;  ///< dropped; 0 unless something is wrong
-    bool filmOverflowed = false;         ///< some sum did not fit 64 bits and was clamped
+    bool filmOverflowed = false;         ///< some light was brighter than Film::largestRadiance
     std::uint64_t deviceBytes = 0;       ///< peak
     /// Radiance (mean over pixels and channels, displayed) that the last allowed bounce added, and the one
     /// before it.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "host/render/context.h"
+#include "host/render/film_quantum.h"
 #include "host/render/light_kernel.h"
 #include "host/render/schedule.h"
 
@@ -35,6 +36,8 @@ class Shooter {
     static constexpr std::uint32_t kMaxPaths = 1u << 18;  // of one dispatch
     static constexpr std::uint32_t kFirstPaths = 2048;    // before any speed is known
     static constexpr std::uint32_t kMostDispatches = 16;  // of one batch: a second or two
+    // Of one batch: the largest mean that a pixel may have (2^58 quanta a path) then fits 63 bits.
+    static constexpr std::uint64_t kMostPathsPerPixel = 32;
 
     /// A sum over lanes must not depend on which lane took which path, so it is exact.
     __extension__ using Int128 = __int128;
@@ -55,6 +58,8 @@ class Shooter {
         if (context_.deviceScene.lightCount == 0) {
             context_.film.countLightPaths(context_.samplesTotal());
             statistics.samples = context_.samplesTotal();
+        } else if (context_.control.resume == nullptr) {
+            context_.film.setQuantum(chooseQuantum(kernel));
         }
         std::uint32_t dispatches = 1;
         while (statistics.samples < context_.samplesTotal() && !statistics.stopped && !finishEarly(0)) {
@@ -71,6 +76,43 @@ class Shooter {
         }
         statistics.stopped = statistics.samples < context_.samplesTotal();
         context_.reportProgress();
+    }
+
+    /// By the first paths of all: the same ones whatever range of paths is to be traced.
+    float chooseQuantum(LightKernel& kernel) {
+        constexpr std::uint64_t kPaths = 4096;
+        return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
+            FirstLook look;
+            while (look.samples < kPaths) {
+                const auto count = static_cast<std::uint32_t>(
+                    std::min<std::uint64_t>(kernel.maxPaths(), kPaths - look.samples));
+                kernel.submit(0, {look.samples, count}, quantum);
+                const LightKernel::Results results = kernel.wait(0);
+                context_.received(results.deviceSeconds, count);
+                if (!results.complete) {
+                    takeLess(kernel, results);
+                    continue;
+                }
+                look.samples += count;
+                for (const shared::LaneResult& lane : results.lanes) {
+                    const auto sum = [](const std::uint32_t(&words)[2]) {
+                        return static_cast<double>(signed64(words[0], words[1])) *
+                               static_cast<double>(shared::kStatisticsQuanta);
+                    };
+                    look.invisible += sum(lane.invisible);
+                    look.visible += sum(lane.visible);
+                    look.clamped = look.clamped || lane.clamped > 0;
+                }
+            }
+            kernel.clearFilm();
+            return look;
+        });
+    }
+
+    void takeLess(LightKernel& kernel, const LightKernel::Results& results) {
+        if (results.lanePaths == 1) context_.failCutShort();
+        kernel.limitLanePaths(results.lanePaths / 2);
+        ++context_.statistics.dispatchesCutShort;
     }
 
     /// A path per pixel is traced in any case. `underWay`: paths of the batch.
@@ -95,15 +137,16 @@ class Shooter {
         Batch batch;
         const std::uint64_t end = nextPath() + context_.samplesTotal() - context_.statistics.samples;
         const std::uint64_t begin = nextPath();
+        const std::uint64_t batchEnd = std::min(end, begin + kMostPathsPerPixel * context_.pixels());
         std::uint64_t next = begin;
         unsigned submitted = 0;
         unsigned received = 0;
         for (;;) {
             // Keep two dispatches in flight, so that the device never waits.
-            while (submitted - received < 2 && submitted < dispatches && next < end && batch.complete &&
+            while (submitted - received < 2 && submitted < dispatches && next < batchEnd && batch.complete &&
                    !(submitted > 0 && (context_.statistics.stopped || finishEarly(next - begin)))) {
-                const PathRange range{next, dispatchPaths(kernel, end - next)};
-                kernel.submit(submitted++ % 2, range);
+                const PathRange range{next, dispatchPaths(kernel, batchEnd - next)};
+                kernel.submit(submitted++ % 2, range, context_.film.quantum());
                 next += range.count;
             }
             if (submitted == received) return batch;
@@ -116,9 +159,7 @@ class Shooter {
         const LightKernel::Results results = kernel.wait(place);
         context_.received(results.deviceSeconds, results.range.count);
         if (!results.complete) {
-            if (results.lanePaths == 1) context_.failCutShort();
-            kernel.limitLanePaths(results.lanePaths / 2);
-            ++context_.statistics.dispatchesCutShort;
+            takeLess(kernel, results);
             batch.complete = false;
             return;
         }
@@ -144,7 +185,7 @@ class Shooter {
         statistics.bounceRays += batch.bounceRays;
         statistics.shadowRays += batch.shadowRays;
         statistics.filmOverflowed = statistics.filmOverflowed || batch.clamped;
-        const double unit = static_cast<double>(context_.deviceScene.quantum * shared::kStatisticsQuanta);
+        const double unit = static_cast<double>(context_.film.quantum() * shared::kStatisticsQuanta);
         context_.lastBounce += static_cast<double>(batch.lastBounce) * unit;
         context_.previousBounce += static_cast<double>(batch.previousBounce) * unit;
         kernel.clearFilm();

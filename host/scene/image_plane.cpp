@@ -14,4 +14,18 @@ ImagePlane imagePlane(const Camera& camera, std::uint32_t width, std::uint32_t h
             glm::vec3(glm::cross(right, forward) * half), static_cast<float>(4.0 * half * half * aspect)};
 }
 
+RayStart rayStart(const Camera& camera, const Bounds& bounds) {
+    constexpr double kFar = 8.0;  // in sizes of the scene
+    const glm::dvec3 position(camera.position);
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - position);
+    const glm::dvec3 lower = glm::dvec3(bounds.lower) - position, upper = glm::dvec3(bounds.upper) - position;
+    // Of the corner of the bounds that is the nearest along the axis.
+    const double nearest =
+        glm::dot(forward, glm::mix(upper, lower, glm::greaterThan(forward, glm::dvec3(0.0))));
+    const double size = glm::length(upper - lower);
+    if (!(nearest > kFar * size)) return {camera.position, 0.0f};
+    const auto depth = static_cast<float>(nearest - size);
+    return {glm::vec3(position + static_cast<double>(depth) * forward), depth};
+}
+
 }  // namespace duolux

@@ -19,4 +19,14 @@ struct ImagePlane {
 /// Of a picture of width x height square pixels.
 ImagePlane imagePlane(const Camera& camera, std::uint32_t width, std::uint32_t height);
 
+/// Where camera rays may begin: nothing of the scene is nearer than the plane at this depth.
+struct RayStart {
+    glm::vec3 position;  ///< on the camera's axis
+    float depth;         ///< distance from the camera, along the axis
+};
+
+/// The camera itself, unless the scene is many times its size away: single precision, relative to a point
+/// that far, would not tell small triangles apart.
+RayStart rayStart(const Camera& camera, const Bounds& bounds);
+
 }  // namespace duolux

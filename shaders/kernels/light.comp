@@ -70,6 +70,8 @@ float rowWeighted(Light l) { return maxComponent(params.rowWeight.x * l.invisibl
 // Russian roulette on connections, where only a part of their worth is left.
 float connectionSurvival(float left, float whole) { return min(left / whole, 1.0); }
 
+float channelMean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
+
 // Adds to one sum of the film; whether that was beyond the range of 63 bits before.
 bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
 #ifdef DUOLUX_INT64_ATOMICS
@@ -80,19 +82,21 @@ bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
 #endif
 }
 
-void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
+void splat(inout LaneSums sums, Light light, Connection connection, uvec2 path) {
+    uint pixel = connection.pixel;
     vec3 total = light.invisible + light.visible;
     float sum = total.x + total.y + total.z;
     // Not the other way round: NaN is to be dropped.
     bool fine = sum < kLargestRadiance;
     sums.nonFinite += fine ? 0u : 1u;
     if (!fine) return;
-    sums.clamped += sum * params.inverseQuantum >= kFilmLargest ? 1u : 0u;
+    sums.clamped += sum * dispatch.inverseQuantum >= kFilmLargest ? 1u : 0u;
     uint index = (kFilmBands > 1u ? pixel % kBandPixels : pixel) * kFilmSums;
     uvec2[kFilmSums] quanta;
+    FilmRounding u = filmRounding(path.y, path.x, connection.dimension, params.seed);
     for (int c = 0; c < 3; c++) {
-        quanta[c] = filmQuantise(light.invisible[c], params.inverseQuantum);
-        quanta[c + 3] = filmQuantise(light.visible[c], params.inverseQuantum);
+        quanta[c] = filmQuantise(light.invisible[c], dispatch.inverseQuantum, u.invisible[c]);
+        quanta[c + 3] = filmQuantise(light.visible[c], dispatch.inverseQuantum, u.visible[c]);
     }
     for (uint band = 0u; band < kFilmBands; band++) {
         if (kFilmBands == 1u || pixel / kBandPixels == band) {
@@ -110,10 +114,13 @@ void splat(inout LaneSums sums, Light light, uint pixel, uint scatterings) {
     }
 
     vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
-    float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
-    float inverseUnit = params.inverseQuantum * (1.0 / kStatisticsQuanta);
+    float mean = channelMean(displayed);
+    float inverseUnit = dispatch.inverseQuantum * (1.0 / kStatisticsQuanta);
+    uint scatterings = connection.scatterings;
     if (scatterings == params.bounces) sums.lastBounce = filmAddSigned(sums.lastBounce, mean, inverseUnit);
     if (scatterings + 1u == params.bounces) sums.previousBounce = filmAddSigned(sums.previousBounce, mean, inverseUnit);
+    sums.invisible = filmAddSigned(sums.invisible, channelMean(light.invisible), inverseUnit);
+    sums.visible = filmAddSigned(sums.visible, channelMean(light.visible), inverseUnit);
 }
 
 // Sets up a ray to the camera.
@@ -143,6 +150,7 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     connection.survival = survival;
     connection.pixel = camera.pixel;
     connection.scatterings = outgoing.scatterings;
+    connection.dimension = dimension;
 }
 
 // The particle of this number is at its emitter, as at a vertex that it is about to leave.
@@ -203,7 +211,8 @@ void beginSegment(inout LightPath path, Vertex vertex, uint purpose) {
 }
 
 // The ray to the camera has met a surface, or nothing more.
-void meetConnection(inout Connection connection, inout LaneSums sums, Traversal ray, bool found, uint material) {
+void meetConnection(inout Connection connection, inout LaneSums sums, uvec2 path, Traversal ray, bool found,
+                    uint material) {
     if (kCameraTransmittance == kTransmittanceGeneral && found) {
         float before = rowWeighted(connection.light);
         Light through = lightApply(transparentOf(material), connection.light);
@@ -220,7 +229,7 @@ void meetConnection(inout Connection connection, inout LaneSums sums, Traversal 
     if (found) light = Light(kCameraTransmittance == kTransmittanceIdentity ? light.invisible : vec3(0.0), vec3(0.0));
     light = lightScale(light, vec3(1.0 / connection.survival));
     if (maxComponent(light.invisible + light.visible) != 0.0) {
-        splat(sums, light, connection.pixel, connection.scatterings);
+        splat(sums, light, connection, path);
     }
     connection.pending = false;
 }
@@ -312,7 +321,7 @@ void main() {
             bool leaves = false;
             uint purpose = kDimensionDirection;
             if (connection.pending) {
-                meetConnection(connection, sums, ray, found, tri.materialFlags & kMaterialMask);
+                meetConnection(connection, sums, path.id, ray, found, tri.materialFlags & kMaterialMask);
             } else if (!path.ended) {
                 connects = found;
                 bool passes = found && meetSurface(path, vertex, outgoing, ray, tri);

@@ -95,8 +95,9 @@ Path cameraPath(uint pixel, vec2 u) {
     vec2 position = vec2(float(int(pixel % params.width)), float(int(pixel / params.width))) + u;
     Path path;
     path.importance = lightIdentity();
-    path.origin = params.cameraPosition;
-    path.direction = cameraDirection(params, position);
+    CameraRay ray = cameraRay(params, position);
+    path.origin = ray.origin;
+    path.direction = ray.direction;
     path.t = 0.0;
     path.primitive = kNoTriangle;
     path.bsdfPdf = 0.0;
@@ -339,7 +340,8 @@ void main() {
                 // Emitters along a ray that nothing else can stop are found in their own small tree.
                 bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
                 if (path.ended && !shadow.pending) {
-                    addSample(sums, gathered, params.inverseQuantum);
+                    addSample(sums, gathered, dispatch.inverseQuantum,
+                              filmRounding(pixel, sampleIndex, kDimensionPixel, params.seed));
                     gathered = nothingGathered();
                     sampleIndex += 1u;
                     path = cameraPath(pixel, filmSample(pixel, sampleIndex));

@@ -4,11 +4,18 @@
 
 #include "shaders/shared/path_layout.h"
 
-// Unit direction through a point of the image plane; position in pixels from the top left corner.
-vec3 cameraDirection(PathParams params, vec2 position) {
+struct CameraRay {
+    vec3 origin;
+    vec3 direction;  // unit
+};
+
+// Through a point of the image plane; position in pixels from the top left corner. The ray begins where the scene may:
+// from far away single precision would not tell its triangles apart.
+CameraRay cameraRay(PathParams params, vec2 position) {
     vec2 size = vec2(params.width, params.height);
     vec2 ndc = position / size * 2.0 - 1.0;
-    return normalize(params.cameraForward + params.cameraRight * ndc.x - params.cameraUp * ndc.y);
+    vec3 across = params.cameraRight * ndc.x - params.cameraUp * ndc.y;
+    return CameraRay(params.cameraStart + across * params.cameraStartDepth, normalize(params.cameraForward + across));
 }
 
 // How a point is seen. Every camera answers this: another than a pinhole would take two random numbers for the point on
@@ -28,10 +35,11 @@ CameraConnection connectToCamera(PathParams params, vec3 point) {
     CameraConnection c;
     c.distance = length(offset);
     c.direction = offset / c.distance;
-    float depth = -dot(offset, params.cameraForward);
+    vec3 fromStart = point - params.cameraStart;
+    float depth = params.cameraStartDepth + dot(fromStart, params.cameraForward);
     float cosine = depth / c.distance;
-    vec2 ndc = -vec2(dot(offset, params.cameraRight) / dot(params.cameraRight, params.cameraRight),
-                     dot(offset, params.cameraUp) / dot(params.cameraUp, params.cameraUp)) / depth;
+    vec2 ndc = vec2(dot(fromStart, params.cameraRight) / dot(params.cameraRight, params.cameraRight),
+                    dot(fromStart, params.cameraUp) / dot(params.cameraUp, params.cameraUp)) / depth;
     vec2 position = vec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * vec2(params.width, params.height);
     // Not by clamping: a point beyond the edge belongs to no pixel.
     c.visible = depth > 0.0 && position.x >= 0.0 && position.y >= 0.0 && position.x < float(int(params.width)) &&

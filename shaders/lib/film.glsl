@@ -2,20 +2,36 @@
 #ifndef DUOLUX_LIB_FILM_GLSL
 #define DUOLUX_LIB_FILM_GLSL
 
-// One sample of one channel holds less than this many quanta: 2^56.
-const float kFilmLargest = 72057594037927936.0;
+#include "shaders/lib/rng.glsl"
+#include "shaders/shared/path_layout.h"
 
 // Radiance beyond this is an error, not light.
 const float kLargestRadiance = 1e30;
 
-// One radiance value >= 0 in quanta, clamped to the largest.
-uvec2 filmQuantise(float value, float inverseQuantum) {
+// Uniform numbers in [0, 1), by which the channels of a sample are rounded.
+struct FilmRounding {
+    vec3 invisible;
+    vec3 visible;
+};
+
+// Of the sample that the first three numbers name.
+FilmRounding filmRounding(uint a, uint b, uint dimension, uint seed) {
+    // Not the numbers that the sampler makes of the same name.
+    uvec4 first = pcg4d(uvec4(a, b, dimension, ~seed));
+    uvec4 second = pcg4d(first);
+    return FilmRounding(vec3(uniformFloat(first.x), uniformFloat(first.y), uniformFloat(first.z)),
+                        vec3(uniformFloat(second.x), uniformFloat(second.y), uniformFloat(second.z)));
+}
+
+// One radiance value >= 0 in quanta, clamped to the largest. Up or down by chance, in proportion to the rest: with a uniform
+// number the mean is the value, however small it is (stochastic rounding: Forsythe, "Reprint of a Note on Rounding-off
+// Errors", SIAM Review 1(1), 1959).
+uvec2 filmQuantise(float value, float inverseQuantum, float u) {
     float scaled = min(value * inverseQuantum, kFilmLargest);
-    // Below 2^23 there is a fraction to round; above, the float is an integer already, to which 0.5 must not be added:
-    // the sum of the two would be rounded, too.
-    scaled = scaled < 8388608.0 ? floor(scaled + 0.5) : scaled;
-    float high = floor(scaled * (1.0 / 4294967296.0));
-    return uvec2(uint(scaled - high * 4294967296.0), uint(high));
+    float whole = floor(scaled);
+    whole += u < scaled - whole ? 1.0 : 0.0;
+    float high = floor(whole * (1.0 / 4294967296.0));
+    return uvec2(uint(whole - high * 4294967296.0), uint(high));
 }
 
 uvec2 filmAdd(uvec2 sum, uvec2 term) {
@@ -26,9 +42,9 @@ uvec2 filmAdd(uvec2 sum, uvec2 term) {
 // The two's complement.
 uvec2 filmNegate(uvec2 term) { return uvec2(~term.x + 1u, ~term.y + (term.x == 0u ? 1u : 0u)); }
 
-// A value of either sign; the sum is a two's complement number.
+// A value of either sign, rounded to the nearest; the sum is a two's complement number.
 uvec2 filmAddSigned(uvec2 sum, float value, float inverseQuantum) {
-    uvec2 term = filmQuantise(abs(value), inverseQuantum);
+    uvec2 term = filmQuantise(abs(value), inverseQuantum, 0.5);
     return filmAdd(sum, value < 0.0 ? filmNegate(term) : term);
 }
 
@@ -41,10 +57,10 @@ struct FilmSum {
 
 FilmSum filmZero() { return FilmSum(uvec2(0u), uvec2(0u), uvec2(0u)); }
 
-FilmSum filmAccumulate(FilmSum sum, vec3 radiance, float inverseQuantum) {
-    return FilmSum(filmAdd(sum.r, filmQuantise(radiance.r, inverseQuantum)),
-                   filmAdd(sum.g, filmQuantise(radiance.g, inverseQuantum)),
-                   filmAdd(sum.b, filmQuantise(radiance.b, inverseQuantum)));
+FilmSum filmAccumulate(FilmSum sum, vec3 radiance, float inverseQuantum, vec3 u) {
+    return FilmSum(filmAdd(sum.r, filmQuantise(radiance.r, inverseQuantum, u.r)),
+                   filmAdd(sum.g, filmQuantise(radiance.g, inverseQuantum, u.g)),
+                   filmAdd(sum.b, filmQuantise(radiance.b, inverseQuantum, u.b)));
 }
 
 #endif

@@ -53,6 +53,7 @@ struct Connection {
     float survival;
     uint pixel;
     uint scatterings;   // events on the path, for the statistics
+    uint dimension;     // of its random numbers
 };
 
 struct LaneSums {
@@ -63,14 +64,17 @@ struct LaneSums {
     uint shadowRays;
     uvec2 lastBounce;
     uvec2 previousBounce;
+    uvec2 invisible;
+    uvec2 visible;
 };
 
-LaneSums emptySums() { return LaneSums(0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u)); }
+LaneSums emptySums() { return LaneSums(0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u)); }
 
 LaneResult laneResult(LaneSums sums) {
     return LaneResult(sums.nonFinite, sums.clamped, sums.lightRays, sums.bounceRays, sums.shadowRays,
                       uint[2](sums.lastBounce.x, sums.lastBounce.y),
-                      uint[2](sums.previousBounce.x, sums.previousBounce.y));
+                      uint[2](sums.previousBounce.x, sums.previousBounce.y),
+                      uint[2](sums.invisible.x, sums.invisible.y), uint[2](sums.visible.x, sums.visible.y));
 }
 
 #endif

@@ -42,12 +42,12 @@ struct SlotSums {
 
 SlotSums emptySums() { return SlotSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
 
-void addSample(inout SlotSums sums, Gathered gathered, float inverseQuantum) {
+void addSample(inout SlotSums sums, Gathered gathered, float inverseQuantum, FilmRounding u) {
     vec3 total = gathered.light.invisible + gathered.light.visible;
     float sum = total.x + total.y + total.z;
     if (sum < kLargestRadiance) {
-        sums.invisible = filmAccumulate(sums.invisible, gathered.light.invisible, inverseQuantum);
-        sums.visible = filmAccumulate(sums.visible, gathered.light.visible, inverseQuantum);
+        sums.invisible = filmAccumulate(sums.invisible, gathered.light.invisible, inverseQuantum, u.invisible);
+        sums.visible = filmAccumulate(sums.visible, gathered.light.visible, inverseQuantum, u.visible);
         sums.lastBounce += gathered.lastBounce;
         sums.previousBounce += gathered.previousBounce;
         sums.clamped += sum * inverseQuantum >= kFilmLargest ? 1u : 0u;

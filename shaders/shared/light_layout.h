@@ -27,6 +27,7 @@ struct LightDispatch {
     uint teamPaths;    // paths that each team of lanes takes, one after the other
     uint firstResult;  // where the first lane's goes
     uint firstTeam;
+    float inverseQuantum;
 };
 
 // Sums over the paths that a lane has taken in one dispatch. 64-bit two's complement numbers as (low, high).
@@ -39,10 +40,12 @@ struct LaneResult {
     uint lastBounce[2];  // displayed radiance (mean of channels) with PathParams.bounces scattering events,
                          // in units of kStatisticsQuanta, of which many fit however bright they are
     uint previousBounce[2];  // with one fewer
+    uint invisible[2];       // all that arrived (mean of channels), in the same units
+    uint visible[2];
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LaneResult) == 36 && sizeof(LightDispatch) == 24);
+static_assert(sizeof(LaneResult) == 52 && sizeof(LightDispatch) == 28);
 #endif
 
 DUOLUX_END

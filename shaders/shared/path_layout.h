@@ -7,6 +7,9 @@
 
 DUOLUX_BEGIN
 
+// One sample of a pixel holds at most this many quanta of the film, 2^58; so does the mean of a pixel.
+DUOLUX_CONST float kFilmLargest = 288230376151711744.0f;
+
 // Descriptor bindings, all in set 0.
 DUOLUX_CONST uint kBindingNodes = 0u;      // WideNode as texels or storage, or acceleration structure
 DUOLUX_CONST uint kBindingTriangles = 1u;  // DevicePair as texels or storage
@@ -74,13 +77,14 @@ struct PathParams {
     vec2 rowWeight;  // how much the components (invisible, visible) of a pixel count when work is
                      // distributed; sum 1
     vec2 display;    // the row d of eq. 8
-    float inverseQuantum;
     uint lightCount;
     uint emitterRoot;   // node index of the root of the tree over emitters, or index of the first of their
                         // triangles where the driver has the tree; 0: there is none
     vec3 emitterLower;  // their bounds, widened a little
     vec3 emitterUpper;
-    float imageArea;  // of the image plane at distance 1
+    float imageArea;    // of the image plane at distance 1
+    vec3 cameraStart;   // where rays begin: the camera's position, or a point ahead of it before a distant scene
+    float cameraStartDepth;  // how far ahead
 };
 
 struct DispatchParams {
@@ -91,6 +95,7 @@ struct DispatchParams {
     uint teamSlots;    // slots that each team of lanes takes, one after the other
     uint firstResult;  // where in the results the first slot's goes
     uint firstTeam;    // where the progress of the first team is kept
+    float inverseQuantum;
 };
 
 // Slots that the lanes of a team have begun and finished. Finished are fewer than asked for if the driver cut
@@ -126,7 +131,7 @@ DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 #ifdef __cplusplus
 static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
 static_assert(offsetof(PathParams, opaque) == 64 && offsetof(PathParams, rowWeight) == 160);
-static_assert(offsetof(PathParams, emitterRoot) == 184 && sizeof(PathParams) == 216);
+static_assert(offsetof(PathParams, emitterRoot) == 180 && sizeof(PathParams) == 228);
 
 struct DeviceMaterial {
     vec3 diffuse;

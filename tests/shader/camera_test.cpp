@@ -53,7 +53,13 @@ shared::PathParams paramsOf(const Camera& camera, std::uint32_t width = kWidth,
     params.cameraRight = plane.right;
     params.cameraUp = plane.up;
     params.imageArea = plane.area;
+    params.cameraStart = camera.position;
     return params;
+}
+
+std::vector<glm::vec3> directionsThrough(const shared::PathParams& params,
+                                         const std::vector<glm::vec2>& positions) {
+    return camera().evaluate<glm::vec3>("result = cameraRay(x0, x1).direction;", params, positions);
 }
 
 std::vector<Seen> connect(const shared::PathParams& params, const std::vector<glm::vec3>& points) {
@@ -76,8 +82,7 @@ TEST(CameraDirection, IsThatOfTheReference) {
             std::uniform_real_distribution<float> uniform;
             while (positions.size() < 500)
                 positions.push_back(extent * glm::vec2(uniform(engine), uniform(engine)));
-            const auto directions =
-                camera().call<glm::vec3>("cameraDirection", paramsOf(view, size.x, size.y), positions);
+            const auto directions = directionsThrough(paramsOf(view, size.x, size.y), positions);
             for (std::size_t i = 0; i < positions.size(); ++i) {
                 const Vec3 expected =
                     pinhole.ray(static_cast<double>(positions[i].x), static_cast<double>(positions[i].y))
@@ -85,6 +90,48 @@ TEST(CameraDirection, IsThatOfTheReference) {
                 EXPECT_LT(glm::length(Vec3(directions[i]) - expected), 4e-7) << vfov << ", " << i;
             }
         }
+    }
+}
+
+// A scene of size 1, from a million times that: rays begin before it, at no more than a unit in the last
+// place of its coordinates from where they go in double precision, and its points are seen in the pixels of
+// those rays.
+TEST(CameraRay, FromFarAwayBeginsBeforeTheScene) {
+    const Bounds bounds{{-0.5f, 2.0f, -0.25f}, {0.5f, 3.0f, 0.25f}};
+    const glm::dvec3 centre(0.0, 2.5, 0.0);
+    for (const float distance : {5.0f, 1e3f, 1e6f}) {
+        Camera view;
+        view.target = glm::vec3(centre);
+        view.position =
+            glm::vec3(centre + static_cast<double>(distance) * glm::normalize(glm::dvec3(3, 2, -1)));
+        view.vfov = static_cast<float>(2.0 * glm::degrees(std::atan(0.7 / static_cast<double>(distance))));
+        const RayStart start = rayStart(view, bounds);
+        EXPECT_EQ(start.depth == 0.0f, distance < 10.0f);
+        shared::PathParams params = paramsOf(view);
+        params.cameraStart = start.position;
+        params.cameraStartDepth = start.depth;
+        const reference::Pinhole pinhole(view, kWidth, kHeight);
+        std::vector<glm::vec2> positions;
+        for (int i = 0; i < 200; ++i)
+            positions.emplace_back(0.5f + static_cast<float>(i % kWidth),
+                                   0.5f + static_cast<float>(i % kHeight));
+        const auto origins =
+            camera().evaluate<glm::vec3>("result = cameraRay(x0, x1).origin;", params, positions);
+        std::vector<glm::vec3> points;
+        const glm::dvec3 forward = glm::normalize(glm::dvec3(view.target) - glm::dvec3(view.position));
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const reference::Ray ray = pinhole.ray(positions[i].x, positions[i].y);
+            const double along = glm::dot(glm::dvec3(origins[i]) - ray.origin, ray.direction);
+            const double beside = glm::length(glm::dvec3(origins[i]) - ray.origin - along * ray.direction);
+            EXPECT_LT(beside, distance < 10.0f ? 1e-6 : 3e-6) << distance << ", " << i;
+            const double depth = glm::dot(centre - ray.origin, forward) / glm::dot(ray.direction, forward);
+            EXPECT_LT(along, depth - 0.5);
+            points.emplace_back(ray.origin + depth * ray.direction);
+        }
+        const std::vector<Seen> seen = connect(params, points);
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            EXPECT_EQ(seen[i].pixel, static_cast<std::uint32_t>(positions[i].y) * kWidth +
+                                         static_cast<std::uint32_t>(positions[i].x));
     }
 }
 
@@ -188,6 +235,8 @@ Params mirrored(const shared::PathParams& p) {
     out.width = p.width;
     out.height = p.height;
     out.imageArea = p.imageArea;
+    out.cameraStart = p.cameraStart;
+    out.cameraStartDepth = p.cameraStartDepth;
     return out;
 }
 
@@ -210,9 +259,9 @@ TEST(CameraOracles, RaysAndConnections) {
         points.emplace_back(Vec3(kCamera.position) + distance * pinhole.ray(x, y).direction);
     }
     EXPECT_WITHIN_ORACLES(
-        "cameraDirection", camera().call<glm::vec3>("cameraDirection", params, positions), Budget{2, 3e-7},
-        [&](const auto& p) { return mirror::single::cameraDirection(single, p); },
-        [&](const auto& p) { return mirror::twice::cameraDirection(twice, p); }, positions);
+        "direction", directionsThrough(params, positions), Budget{2, 3e-7},
+        [&](const auto& p) { return mirror::single::cameraRay(single, p).direction; },
+        [&](const auto& p) { return mirror::twice::cameraRay(twice, p).direction; }, positions);
     const std::vector<Seen> seen = connect(params, points);
     std::vector<glm::uvec2> pixels;
     std::vector<glm::vec4> rest;

@@ -15,8 +15,13 @@ PathParams randomCamera() {
     params.cameraRight = right * (halfHeight * aspect);
     params.cameraUp = cross(right, params.cameraForward) * halfHeight;
     params.imageArea = 4.0 * halfHeight * halfHeight * aspect;
+    // Rays begin at the camera, or ahead of it.
+    params.cameraStartDepth = testIndex() % 2u == 0u ? 0.0 : 0.05;
+    params.cameraStart = params.cameraPosition + params.cameraForward * params.cameraStartDepth;
     return params;
 }
+
+vec3 cameraDirection(PathParams params, vec2 position) { return cameraRay(params, position).direction; }
 
 vec2 imageSize(PathParams params) { return vec2(params.width, params.height); }
 
@@ -34,6 +39,13 @@ TEST(RaysThroughTheCornersSpanTheImagePlane) {
 TEST(RayThroughTheCentreGoesForward) {
     PathParams params = randomCamera();
     EXPECT_NEAR(cameraDirection(params, 0.5 * imageSize(params)), params.cameraForward, 4e-7);
+}
+
+TEST(RaysBeginOnTheirWayFromTheCamera) {
+    PathParams params = randomCamera();
+    CameraRay ray = cameraRay(params, randomVec2() * imageSize(params));
+    float depth = params.cameraStartDepth;
+    EXPECT_NEAR(ray.origin, params.cameraPosition + ray.direction * (depth / dot(ray.direction, params.cameraForward)), 2e-6);
 }
 
 TEST(RaysAreUnit) {
@@ -81,6 +93,8 @@ PathParams plainCamera() {
     params.width = 4u;
     params.height = 2u;
     params.imageArea = 8.0;
+    params.cameraStart = vec3(0.0);
+    params.cameraStartDepth = 0.0;
     return params;
 }
 

@@ -7,18 +7,19 @@ const int kSamples = 64;
 
 TEST_N(SumsDoNotDependOnTheOrder, 512) {
     vec3 samples[kSamples];
+    vec3 u = randomVec3(0.0, 1.0);
     for (int i = 0; i < kSamples; i++) samples[i] = randomRadiance();
     FilmSum forward = filmZero();
     FilmSum backward = filmZero();
     FilmSum first = filmZero();
     FilmSum second = filmZero();
     for (int i = 0; i < kSamples; i++) {
-        forward = filmAccumulate(forward, samples[i], 1048576.0);
-        backward = filmAccumulate(backward, samples[kSamples - 1 - i], 1048576.0);
+        forward = filmAccumulate(forward, samples[i], 1048576.0, u);
+        backward = filmAccumulate(backward, samples[kSamples - 1 - i], 1048576.0, u);
         if (i < 20) {
-            first = filmAccumulate(first, samples[i], 1048576.0);
+            first = filmAccumulate(first, samples[i], 1048576.0, u);
         } else {
-            second = filmAccumulate(second, samples[i], 1048576.0);
+            second = filmAccumulate(second, samples[i], 1048576.0, u);
         }
     }
     EXPECT_EQ(uvec4(backward.r, backward.g), uvec4(forward.r, forward.g));
@@ -41,18 +42,19 @@ TEST(NegativeIsWhatMakesNothing) {
     EXPECT_EQ(filmNegate(filmNegate(a)), a);
 }
 
-// The nearest multiple, up to where floats are integers; halves go up.
-TEST(QuantisingRoundsToTheNearest) {
+// One of the multiples beside, up to where floats are integers; an integer stays what it is.
+TEST(QuantisingRoundsToAMultipleBeside) {
     float radiance = randomFloat(0.0, 16777216.0) * randomScale(-24.0, 0.0);
-    uvec2 quanta = filmQuantise(radiance, 1.0);
+    uvec2 quanta = filmQuantise(radiance, 1.0, randomFloat());
     EXPECT_EQ(quanta.y, 0u);
-    EXPECT_LE(abs(radiance - float(int(quanta.x))), 0.5);
+    EXPECT_LT(abs(radiance - float(int(quanta.x))), 1.0);
+    EXPECT_EQ(filmQuantise(floor(radiance), 1.0, randomFloat()).x, uint(int(floor(radiance))));
 }
 
 TEST(ChannelsAreSummedApart) {
     vec3 radiance = floor(randomVec3(0.0, 1000.0));
     FilmSum before = FilmSum(uvec2(5u, 1u), uvec2(6u, 2u), uvec2(7u, 3u));
-    FilmSum after = filmAccumulate(before, radiance, 2.0);
+    FilmSum after = filmAccumulate(before, radiance, 2.0, randomVec3(0.0, 1.0));
     EXPECT_EQ(uvec3(after.r.x, after.g.x, after.b.x), uvec3(5u, 6u, 7u) + 2u * uvec3(radiance));
     EXPECT_EQ(uvec3(after.r.y, after.g.y, after.b.y), uvec3(1u, 2u, 3u));
 }

@@ -73,12 +73,13 @@ inline void listFields(const shared::PathParams& s, WordList& list) {
     DUOLUX_FIELD(transparent);
     DUOLUX_FIELD(rowWeight);
     DUOLUX_FIELD(display);
-    DUOLUX_FIELD(inverseQuantum);
     DUOLUX_FIELD(lightCount);
     DUOLUX_FIELD(emitterRoot);
     DUOLUX_FIELD(emitterLower);
     DUOLUX_FIELD(emitterUpper);
     DUOLUX_FIELD(imageArea);
+    DUOLUX_FIELD(cameraStart);
+    DUOLUX_FIELD(cameraStartDepth);
 }
 inline void listFields(const shared::DeviceLightMatrix& s, WordList& list) {
     DUOLUX_FIELD(m00);
@@ -94,6 +95,7 @@ inline void listFields(const shared::DispatchParams& s, WordList& list) {
     DUOLUX_FIELD(teamSlots);
     DUOLUX_FIELD(firstResult);
     DUOLUX_FIELD(firstTeam);
+    DUOLUX_FIELD(inverseQuantum);
 }
 inline void listFields(const shared::LightDispatch& s, WordList& list) {
     DUOLUX_FIELD(firstLow);
@@ -102,6 +104,7 @@ inline void listFields(const shared::LightDispatch& s, WordList& list) {
     DUOLUX_FIELD(teamPaths);
     DUOLUX_FIELD(firstResult);
     DUOLUX_FIELD(firstTeam);
+    DUOLUX_FIELD(inverseQuantum);
 }
 inline void listFields(const shared::TeamProgress& s, WordList& list) {
     DUOLUX_FIELD(taken);
@@ -127,6 +130,8 @@ inline void listFields(const shared::LaneResult& s, WordList& list) {
     DUOLUX_FIELD(shadowRays);
     DUOLUX_FIELD(lastBounce);
     DUOLUX_FIELD(previousBounce);
+    DUOLUX_FIELD(invisible);
+    DUOLUX_FIELD(visible);
 }
 inline void listFields(const shared::TraceRay& s, WordList& list) {
     DUOLUX_FIELD(origin);

@@ -57,7 +57,7 @@ DUOLUX_MIRROR_TYPE(SlotSums, s.invisible, s.visible, s.nonFinite, s.clamped, s.c
 DUOLUX_MIRROR_TYPE(SlotResult, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
                    s.shadowRays, s.emitterRays, s.lastBounce, s.previousBounce);
 DUOLUX_MIRROR_TYPE(LaneResult, s.nonFinite, s.clamped, s.lightRays, s.bounceRays, s.shadowRays, s.lastBounce,
-                   s.previousBounce);
+                   s.previousBounce, s.invisible, s.visible);
 
 namespace duolux::mirror::single {
 

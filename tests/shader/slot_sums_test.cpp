@@ -70,7 +70,7 @@ TEST_F(SlotSumsOracles, Gather) {
               numbers(mirror::single::nothingGathered()));
 }
 
-// Numbers of all sizes; where a sum of six is beside 2^56 quanta or 1e30, precision decides, so that there is
+// Numbers of all sizes; where a sum of six is beside 2^58 quanta or 1e30, precision decides, so that there is
 // none.
 TEST_F(SlotSumsOracles, Samples) {
     std::vector<SlotSums> before;
@@ -80,17 +80,18 @@ TEST_F(SlotSumsOracles, Samples) {
         const float bright = std::exp2(static_cast<float>(i % 110));
         samples.push_back(i % 16 == 15 ? gathered(i % 32 == 31 ? NAN : INFINITY) : gathered(bright));
     }
-    const auto after = slotSums().evaluate<SlotSums>("SlotSums s = x0; addSample(s, x1, 1024.0); result = s;",
-                                                     before, samples);
+    const auto after = slotSums().evaluate<SlotSums>(
+        "SlotSums s = x0; addSample(s, x1, 1024.0, FilmRounding(vec3(0.25), vec3(0.75))); result = s;",
+        before, samples);
     // Words are exact; the statistics' floats are sums of two numbers of about 1.
     EXPECT_WITHIN_ORACLES(
         "addSample", after, Budget{1, 0},
         [](SlotSums s, const auto& g) {
-            mirror::single::addSample(s, g, 1024.0f);
+            mirror::single::addSample(s, g, 1024.0f, {glm::vec3(0.25f), glm::vec3(0.75f)});
             return s;
         },
         [](mirror::twice::SlotSums s, const auto& g) {
-            mirror::twice::addSample(s, g, 1024.0);
+            mirror::twice::addSample(s, g, 1024.0, {glm::dvec3(0.25), glm::dvec3(0.75)});
             return s;
         },
         before, samples);
@@ -112,10 +113,17 @@ TEST(LightPathOracles, LaneResult) {
     using mirror::single::light_path::LaneSums;
     ShaderLibrary library("shaders/lib/light_path.glsl");
     library.define("uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }");
-    const std::vector<LaneSums> sums{
-        library.call<LaneSums>("emptySums")[0],
-        {1, 2, 3, 4, 5, {6, 7}, {8, 9}},
-        {0xfffffff1, 0xfffffff2, 0xfffffff3, 0xfffffff4, 0xfffffff5, {6, 0xffffffff}, {8, 0x80000000}}};
+    const std::vector<LaneSums> sums{library.call<LaneSums>("emptySums")[0],
+                                     {1, 2, 3, 4, 5, {6, 7}, {8, 9}, {10, 11}, {12, 13}},
+                                     {0xfffffff1,
+                                      0xfffffff2,
+                                      0xfffffff3,
+                                      0xfffffff4,
+                                      0xfffffff5,
+                                      {6, 0xffffffff},
+                                      {8, 0x80000000},
+                                      {10, 0xffffffff},
+                                      {12, 0x80000000}}};
     const auto results = library.call<mirror::single::LaneResult>("laneResult", sums);
     EXPECT_EQ(numbers(results[0]),
               numbers(mirror::single::light_path::laneResult(mirror::single::light_path::emptySums())));

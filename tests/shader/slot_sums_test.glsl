@@ -27,6 +27,8 @@ TEST_N(NothingIsGatheredAtFirst, 1) {
 }
 
 // Sums that hold something in every field, of which a sample may change only its own.
+FilmRounding someRounding() { return FilmRounding(randomVec3(0.0, 1.0), randomVec3(0.0, 1.0)); }
+
 SlotSums someSums() {
     return SlotSums(FilmSum(uvec2(1u, 0u), uvec2(2u, 0u), uvec2(3u, 0u)), FilmSum(uvec2(4u, 0u), uvec2(5u, 0u),
                     uvec2(6u, 0u)), 7u, 8u, 9u, 10u, 11u, 12u, 13.0, 14.0);
@@ -39,7 +41,7 @@ void expectRays(SlotSums sums) {
 TEST(SampleIsAddedToItsSums) {
     Light light = Light(randomIntegers(), randomIntegers());
     SlotSums sums = someSums();
-    addSample(sums, Gathered(light, 0.5, 0.25), 4.0);
+    addSample(sums, Gathered(light, 0.5, 0.25), 4.0, someRounding());
     uvec3 invisible = uvec3(1u, 2u, 3u) + 4u * uvec3(light.invisible);
     uvec3 visible = uvec3(4u, 5u, 6u) + 4u * uvec3(light.visible);
     EXPECT_EQ(uvec3(sums.invisible.r.x, sums.invisible.g.x, sums.invisible.b.x), invisible);
@@ -57,7 +59,7 @@ TEST_N(SampleThatIsNotANumberIsDropped, 24) {
     if (testIndex() / 3u % 2u == 0u) light.invisible[channel] = wrong[testIndex() / 6u];
     else light.visible[channel] = wrong[testIndex() / 6u];
     SlotSums sums = someSums();
-    addSample(sums, Gathered(light, 0.5, 0.25), 4.0);
+    addSample(sums, Gathered(light, 0.5, 0.25), 4.0, someRounding());
     EXPECT_EQ(uvec3(sums.invisible.r.x, sums.invisible.g.x, sums.invisible.b.x), uvec3(1u, 2u, 3u));
     EXPECT_EQ(uvec3(sums.visible.r.x, sums.visible.g.x, sums.visible.b.x), uvec3(4u, 5u, 6u));
     EXPECT_EQ(vec2(sums.lastBounce, sums.previousBounce), vec2(13.0, 14.0));
@@ -65,17 +67,17 @@ TEST_N(SampleThatIsNotANumberIsDropped, 24) {
     expectRays(sums);
 }
 
-// Just below what is an error: kept. Six channels at 2^56 quanta or beyond all together are clamped and counted.
+// Just below what is an error: kept. Six channels at 2^58 quanta or beyond all together are clamped and counted.
 TEST_N(BrightSamplesAreClampedAndCounted, 1) {
     SlotSums sums = someSums();
-    addSample(sums, Gathered(Light(vec3(0.9e30, 0.0, 1.0), vec3(1.0)), 0.0, 0.0), 1.0);
+    addSample(sums, Gathered(Light(vec3(0.9e30, 0.0, 1.0), vec3(1.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(uvec2(sums.nonFinite, sums.clamped), uvec2(7u, 9u));
-    EXPECT_EQ(uvec4(sums.invisible.r, sums.invisible.b), uvec4(1u, 1u << 24u, 4u, 0u));
-    addSample(sums, Gathered(Light(vec3(kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0);
+    EXPECT_EQ(uvec4(sums.invisible.r, sums.invisible.b), uvec4(1u, 1u << 26u, 4u, 0u));
+    addSample(sums, Gathered(Light(vec3(kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(sums.clamped, 10u);
-    addSample(sums, Gathered(Light(vec3(0.99 * kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0);
+    addSample(sums, Gathered(Light(vec3(0.99 * kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(sums.clamped, 10u);
-    addSample(sums, Gathered(Light(vec3(0.0), vec3(0.0, 0.0, 0.01 * kFilmLargest)), 0.0, 0.0), 100.0);
+    addSample(sums, Gathered(Light(vec3(0.0), vec3(0.0, 0.0, 0.01 * kFilmLargest)), 0.0, 0.0), 100.0, someRounding());
     EXPECT_EQ(uvec2(sums.nonFinite, sums.clamped), uvec2(7u, 11u));
 }
 

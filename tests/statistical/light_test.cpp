@@ -181,8 +181,8 @@ TEST(LightPaths, WhatIsDisplayedIsAlwaysConnected) {
     EXPECT_LT(raysToCamera({0, 1}), visible);
 }
 
-/// A camera so near to a lit floor that single contributions are beyond what the film holds.
-TEST(LightPaths, BrighterThanTheFilmIsClampedAndTold) {
+/// A camera so near to a lit floor that it is a million times as bright as it emits.
+TEST(LightPaths, ManyTimesBrighterThanItsEmitterIsHeld) {
     SceneBuilder builder;
     Material floor, lamp;
     floor.name = "floor";
@@ -191,29 +191,28 @@ TEST(LightPaths, BrighterThanTheFilmIsClampedAndTold) {
     const float a = 2e-3f, b = 1e-3f, h = 5e-4f;
     builder.quad({-a, 0, a}, {a, 0, a}, {a, 0, -a}, {-a, 0, -a}, builder.add(floor));
     builder.quad({-b, h, -b}, {b, h, -b}, {b, h, b}, {-b, h, b}, builder.add(lamp));
-    builder.quad({1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}, 0);  // makes the scene a large one
     Scene& scene = builder.scene;
-    scene.reflectance = preset("local");
-    scene.camera = {{0, 3e-7f, 0}, {0, 0, 0}, {0, 0, 1}, 150.0f};
+    scene.reflectance = {matrix(0.0f, 0.0f, 1e6f, 0.0f), {matrix(1.0f, 0.0f, 0.0f, 0.0f)}};
+    scene.camera = {{0, 3e-4f, 0}, {0, 0, 0}, {0, 0, 1}, 60.0f};
     scene.render.width = scene.render.height = 2;
     scene.render.bounces = 1;
+    scene.render.spp = 1u << 14;
+    const RenderOutput gathered = render(device(), scene);
     scene.render.integrator = Integrator::kLight;
-    scene.render.spp = 1u << 21;
-    const RenderOutput output = render(device(), scene);
-    EXPECT_TRUE(output.statistics.filmOverflowed);
-    for (const Film::PixelSum& sum : output.film.lightSums()) {
-        for (int c = 0; c < 3; ++c)
-            EXPECT_GE(sum.visible[c], 0);
+    const RenderOutput shot = render(device(), scene);
+    EXPECT_FALSE(gathered.statistics.filmOverflowed);
+    EXPECT_FALSE(shot.statistics.filmOverflowed);
+    double expected = 0.0, found = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        expected += static_cast<double>(gathered.film.resolve().visible[i].x);
+        found += static_cast<double>(shot.film.resolve().visible[i].x);
     }
-    // A floor at a distance is within the range.
-    scene.camera.position.y = 1e-4f;
-    scene.render.spp = 1u << 16;
-    EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);
+    EXPECT_GT(expected, 4e5);
+    EXPECT_NEAR(found, expected, 0.1 * expected);  // 4 standard errors
 }
 
-/// Light that grows 28 times with each bounce: no contribution is too bright for the film, but their sums
-/// are, on the device or where parts are added up.
-TEST(LightPaths, SumsBeyondTheFilmAreSaturatedAndTold) {
+/// Light that grows 28 times with each bounce, in sums beyond 64 bits: in any order, and in any parts.
+TEST(LightPaths, SumsOfGrowingLightAreTheSameBits) {
     const std::vector<ExactCase> cases = enclosureCases();
     const auto growing = std::ranges::find(cases, "EnclosureGrowing", &ExactCase::name);
     ASSERT_NE(growing, cases.end());
@@ -221,16 +220,11 @@ TEST(LightPaths, SumsBeyondTheFilmAreSaturatedAndTold) {
     scene.reflectance = {matrix(35.0f, 0.0f, 35.0f, 0.0f), {}};
     scene.render.bounces = 4;
     scene.render.width = scene.render.height = 4;
-    scene.render.spp = 1u << 15;
+    scene.render.spp = 1u << 13;
     const RenderOutput whole = render(device(), scene);
-    EXPECT_TRUE(whole.statistics.filmOverflowed);
-    constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
-    for (const Film::PixelSum& sum : whole.film.lightSums())
-        EXPECT_EQ(sum.visible[2], kMax);                    // blue reflects most
-    EXPECT_LT(whole.film.lightSums()[0].visible[0], kMax);  // red little
+    EXPECT_FALSE(whole.statistics.filmOverflowed);
     EXPECT_GT(whole.statistics.previousBounceRadiance, 0.0);
     EXPECT_GT(whole.statistics.lastBounceRadiance, 10.0 * whole.statistics.previousBounceRadiance);
-    // In any order, and in any parts.
     for (const auto& [noInt64Atomics, pathsPerDispatch] :
          {std::pair(true, 0u), {false, 5000u}, {true, 5000u}}) {
         RenderControl control;
@@ -238,8 +232,6 @@ TEST(LightPaths, SumsBeyondTheFilmAreSaturatedAndTold) {
         control.maxPixelsPerDispatch = pathsPerDispatch;
         EXPECT_TRUE(sameBits(render(device(), scene, control).film, whole.film));
     }
-    scene.render.spp = 16;
-    EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);
 }
 
 }  // namespace

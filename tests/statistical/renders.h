@@ -14,7 +14,6 @@ namespace duolux::test {
 /// Renders of one scene that differ in their seed alone.
 struct Renders {
     std::vector<RadianceImage> images;
-    double quantum = 0.0;  ///< of the film
     bool directLightInClosedForm = false;
 };
 

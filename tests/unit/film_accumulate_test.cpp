@@ -88,12 +88,6 @@ TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
     EXPECT_EQ(twice.totalSamples(), 8u);
     EXPECT_EQ(twice.resolve().visible, film.resolve().visible);
 
-    const Film::PixelSum most[] = {{{kMax, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
-    EXPECT_FALSE(film.overflowed());
-    film.addLight(0, most);
-    EXPECT_TRUE(film.overflowed());
-    EXPECT_EQ(film.lightSums()[0].invisible[0], kMax);
-
     // Sums that passed the sign on the device.
     Film passed(2, 1, 0.5f);
     const Film::PixelSum beyond[] = {{{0, 0, 0}, {0, kMin, 0}}, {{0, 0, 0}, {0, 1, 0}}};
@@ -103,27 +97,94 @@ TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
     EXPECT_EQ(passed.lightSums()[1].visible[1], 1);
 }
 
-TEST(Film, SaturatesOnOverflowAndTells) {
+TEST(Film, HoldsSumsBeyond64Bits) {
     const std::uint32_t pixel[] = {0};
-    Film high(1, 1, 1.0f);
-    const Film::PixelSum almost[] = {{{kMax - 1, 0, 0}, {kMax, 0, 0}}};
-    high.add(pixel, almost, 1);
-    EXPECT_FALSE(high.overflowed());
-    const Film::PixelSum two[] = {{{2, 5, 0}, {0, 0, 0}}};
-    high.add(pixel, two, 1);
-    EXPECT_TRUE(high.overflowed());
-    EXPECT_EQ(high.sums()[0].invisible[0], kMax);
-    EXPECT_EQ(high.sums()[0].invisible[1], 5);
-    EXPECT_EQ(high.sums()[0].visible[0], kMax);
+    const Film::PixelSum most[] = {{{kMax, 5, 0}, {0, kMin, 0}}};
+    Film film(1, 1, 0x1p-30f);
+    for (int i = 0; i < 1000; ++i)
+        film.add(pixel, most, 32);
+    EXPECT_EQ(film.carries().size(), 2u);
+    const RadianceImage image = film.resolve();
+    EXPECT_FLOAT_EQ(image.invisible[0].x, 0x1p28f);
+    EXPECT_FLOAT_EQ(image.visible[0].y, -0x1p28f);
+    EXPECT_FLOAT_EQ(image.invisible[0].y, 5.0f / 32.0f * 0x1p-30f);
+    EXPECT_FALSE(film.overflowed());
 
-    Film low(1, 1, 1.0f);
-    const Film::PixelSum bottom[] = {{{0, 0, 0}, {0, 0, kMin}}};
-    low.add(pixel, bottom, 1);
-    EXPECT_FALSE(low.overflowed());
-    const Film::PixelSum less[] = {{{0, 0, 0}, {0, 0, -1}}};
-    low.add(pixel, less, 1);
-    EXPECT_TRUE(low.overflowed());
-    EXPECT_EQ(low.sums()[0].visible[2], kMin);
+    // Two halves, and the other way round.
+    Film half(1, 1, 0x1p-30f);
+    for (int i = 0; i < 500; ++i)
+        half.add(pixel, most, 32);
+    half.add(Film(half));
+    EXPECT_EQ(half.sums()[0].invisible[0], film.sums()[0].invisible[0]);
+    EXPECT_EQ(half.carries(), film.carries());
+    const Film::PixelSum least[] = {{{-kMax, -5, 0}, {0, kMax, 0}}};
+    for (int i = 0; i < 1000; ++i)
+        film.add(pixel, least, 1);
+    EXPECT_TRUE(film.carries().empty());
+    EXPECT_EQ(film.sums()[0].invisible[0], 0);
+    EXPECT_EQ(film.sums()[0].visible[1], -1000);
+
+    Film light(1, 1, 0x1p-30f);
+    const Film::PixelSum bright[] = {{{0, 0, 0}, {kMax, 0, 0}}};
+    for (int i = 0; i < 100; ++i)
+        light.addLight(0, bright);
+    light.countLightPaths(6400);
+    EXPECT_FALSE(light.overflowed());
+    EXPECT_FLOAT_EQ(light.resolve().visible[0].x, 0x1p27f);
+}
+
+// 2^58 quanta, gathered or shot, whatever the number of samples.
+TEST(Film, ClampsAtTheLargestRadianceAndTells) {
+    const std::uint32_t pixel[] = {0};
+    constexpr std::int64_t kLargest = std::int64_t{1} << 58;
+    for (const float quantum : {0x1p-30f, 1.0f}) {
+        const float largest = 0x1p58f * quantum;
+        for (const std::uint32_t samples : {1u, 1u << 24}) {
+            for (const std::int64_t excess : {std::int64_t{0}, kLargest >> 20}) {
+                const Film::PixelSum sum[] = {{{0, 0, 0}, {0, kLargest + excess, 0}}};
+                Film gathered(1, 1, quantum), shot(1, 1, quantum);
+                EXPECT_EQ(gathered.largestRadiance(), static_cast<double>(largest));
+                for (std::uint32_t i = 0; i < 16; ++i) {
+                    gathered.add(pixel, sum, 1);
+                    shot.addLight(0, sum);
+                }
+                shot.countLightPaths(16);
+                for (std::uint32_t doubled = 16; doubled < samples; doubled *= 2) {
+                    gathered.add(Film(gathered));
+                    shot.add(Film(shot));
+                }
+                for (const Film* film : {&gathered, &shot}) {
+                    EXPECT_EQ(film->overflowed(), excess > 0);
+                    EXPECT_EQ(film->resolve().visible[0].y, largest);
+                }
+            }
+        }
+    }
+}
+
+TEST(Film, OfAnotherQuantumIsAddedExactly) {
+    const std::uint32_t both[] = {0, 1};
+    Film coarse(2, 1, 0x1p-20f), fine(2, 1, 0x1p-23f);
+    const Film::PixelSum a[] = {{{kMax, 1, 2}, {3, -4, 5}}, {{0, kMin, 0}, {7, 0, 0}}};
+    const Film::PixelSum b[] = {{{1, 10, 20}, {30, 40, 50}}, {{60, 70, 80}, {90, 100, 110}}};
+    coarse.add(both, a, 1);
+    fine.add(both, b, 1);
+    fine.addLight(0, b);
+    fine.countLightPaths(2);
+    Film sum = coarse, other = fine;
+    sum.add(fine);
+    other.add(coarse);
+    EXPECT_EQ(sum.quantum(), 0x1p-23f);
+    EXPECT_EQ(other.quantum(), 0x1p-23f);
+    EXPECT_EQ(sum.carries(), other.carries());
+    EXPECT_EQ(sum.resolve().invisible, other.resolve().invisible);
+    EXPECT_EQ(sum.resolve().visible, other.resolve().visible);
+    EXPECT_EQ(sum.sums()[0].invisible[1], 18);
+    EXPECT_EQ(sum.sums()[0].visible[1], 8);
+    EXPECT_EQ(sum.lightSums()[1].visible[2], 110);
+    // 8 (2^63 - 1) + 1 = 2^66 - 7
+    EXPECT_EQ(sum.sums()[0].invisible[0], -7);
+    EXPECT_EQ(sum.carries().at(0), 4);
 }
 
 TEST(Film, IsTheSameBitsInWhateverOrderPartsAreAdded) {
@@ -134,7 +195,7 @@ TEST(Film, IsTheSameBitsInWhateverOrderPartsAreAdded) {
     for (auto& part : parts) {
         for (Film::PixelSum& sum : part) {
             for (int c = 0; c < 3; ++c) {
-                sum.invisible[c] = static_cast<std::int64_t>(random()) / (2 * kParts);
+                sum.invisible[c] = static_cast<std::int64_t>(random());
                 sum.visible[c] = static_cast<std::int64_t>(random()) / (2 * kParts);
             }
         }
@@ -161,7 +222,8 @@ TEST(Film, IsTheSameBitsInWhateverOrderPartsAreAdded) {
         shuffled.add(orderSpan.first(5), sumSpan.first(5), 3);
     }
 
-    EXPECT_FALSE(forward.overflowed());
+    EXPECT_FALSE(forward.carries().empty());
+    EXPECT_EQ(forward.carries(), shuffled.carries());
     EXPECT_EQ(forward.totalSamples(), shuffled.totalSamples());
     for (std::uint32_t i = 0; i < kPixels; ++i) {
         for (int c = 0; c < 3; ++c) {

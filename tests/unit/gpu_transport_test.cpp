@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "host/gpu/transport.h"
 
 namespace duolux {
@@ -103,19 +101,14 @@ TEST(Transport, EffectiveBouncesFollowTheComponents) {
     EXPECT_EQ(analyseTransport(sceneWith({})).effectiveBounces, 0u);
 }
 
-TEST(FilmQuantum, IsAPowerOfTwoThatLeavesRoom) {
-    for (float brightness : {1e-9f, 1.0f, 1e12f}) {
-        Scene scene = sceneWith({});
-        scene.materials[0].emission.invisible = glm::vec3(brightness);
-        const float quantum = filmQuantum(scene);
-        int exponent = 0;
-        EXPECT_EQ(std::frexp(quantum, &exponent), 0.5f);
-        EXPECT_LT(quantum, brightness * 0x1p-20f);
-        EXPECT_GT(quantum, brightness * 0x1p-41f);  // 2^20 samples of twice the brightness fit 63 bits
-    }
-    Scene dark = sceneWith({});
-    dark.materials[0].emission = {};
-    EXPECT_GT(filmQuantum(dark), 0.0f);
+TEST(Transport, BrightestEmissionIsOfWhatIsThere) {
+    Scene scene = sceneWith({});
+    scene.materials[1].emission.visible = {1.0f, 9.0f, 0.0f};
+    scene.materials.push_back({});
+    scene.materials.back().emission.invisible = glm::vec3(1e9f);  // no triangle has it
+    EXPECT_EQ(brightestEmission(scene), 9.0);
+    scene.materials[0].emission = scene.materials[1].emission = {};
+    EXPECT_EQ(brightestEmission(scene), 0.0);
 }
 
 }  // namespace

@@ -33,7 +33,14 @@ Film someFilm(bool light) {
             lightSums[i].visible[c] = next += 0x1111;
         }
     }
-    return {kWidth, kHeight, 0x1p-29f, sums, samples, lightSums, light ? 0x123456789abull : 0ull};
+    return {kWidth,
+            kHeight,
+            0x1p-29f,
+            sums,
+            samples,
+            lightSums,
+            light ? 0x123456789abull : 0ull,
+            {{3, 7}, {50, -1}}};
 }
 
 FilmOrigin someOrigin() {
@@ -90,6 +97,7 @@ TEST_F(CheckpointTest, KeepsEverything) {
         EXPECT_TRUE(std::ranges::equal(read.state.film.samples(), film.samples()));
         EXPECT_EQ(read.state.film.lightPaths(), film.lightPaths());
         EXPECT_EQ(read.state.film.quantum(), film.quantum());
+        EXPECT_EQ(read.state.film.carries(), film.carries());
         EXPECT_EQ(read.state.film.width(), kWidth);
         EXPECT_EQ(read.state.film.height(), kHeight);
         EXPECT_EQ(read.state.lastBounceRadiance, 1.0 / 3.0);
@@ -117,7 +125,7 @@ TEST_F(CheckpointTest, ADamagedFileIsRefused) {
     expectRefused("", "is no checkpoint");
     expectRefused("P6 5 3 255 no checkpoint at all", "is no checkpoint");
     std::string newer = good;
-    newer[7] = '2';
+    newer[7] = '9';
     expectRefused(newer, "another version");
     EXPECT_THROW(readCheckpoint(folder_ / "missing"), InputError);
 }

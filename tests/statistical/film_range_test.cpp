@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include "host/render/render.h"
+#include "tests/statistical/films.h"
+#include "tests/support/device.h"
+#include "tests/support/scene_builder.h"
+
+// Dim and bright light in one scene: what a film holds of them.
+
+namespace duolux::test {
+namespace {
+
+/// Panels before the camera that show their emission, and one out of sight.
+class FilmRange : public testing::TestWithParam<Integrator> {
+  protected:
+    FilmRange() {
+        Scene& scene = builder_.scene;
+        scene.reflectance = *presetReflectance("global");
+        scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 20.0f};
+        scene.render.width = scene.render.height = 8;
+        scene.render.bounces = 0;
+        scene.render.spp = 256;
+        scene.render.integrator = GetParam();
+    }
+
+    void panel(float left, float right, float visible, float invisible = 0.0f) {
+        Material material;
+        material.diffuse = glm::vec3(0.0f);
+        material.emission.visible = glm::vec3(visible);
+        material.emission.invisible = glm::vec3(invisible);
+        builder_.quad({left, -2, 0}, {right, -2, 0}, {right, 2, 0}, {left, 2, 0}, builder_.add(material));
+    }
+
+    double meanOf(const RenderOutput& output, std::uint32_t firstColumn, std::uint32_t endColumn) {
+        const RadianceImage image = output.film.resolve();
+        double sum = 0.0;
+        for (std::uint32_t row = 0; row < 8; ++row) {
+            for (std::uint32_t x = firstColumn; x < endColumn; ++x)
+                sum += static_cast<double>(image.visible[row * 8 + x].y);
+        }
+        return sum / (8.0 * (endColumn - firstColumn));
+    }
+
+    /// Gathered exactly; light paths of a visible emitter have noise.
+    double tolerance() const { return GetParam() == Integrator::kLight ? 0.05 : 1e-4; }
+
+    SceneBuilder builder_;
+};
+
+// A lamp 10^17 times as bright, which the camera does not see. (Hardly any light path begins at the panel.)
+TEST_P(FilmRange, DimLightIsKeptBesideBrightEmittersOutOfSight) {
+    builder_.scene.render.integrator = Integrator::kPath;
+    panel(-2.0f, 2.0f, 1e-5f);
+    panel(30.0f, 31.0f, 0.0f, 1e12f);
+    const RenderOutput output = render(device(), builder_.scene);
+    EXPECT_NEAR(meanOf(output, 0, 8) / 1e-5, 1.0, 1e-3);
+    EXPECT_FALSE(output.statistics.filmOverflowed);
+}
+
+// Both in view, 10^8 times apart: neither is lost, and there is no bias.
+TEST_P(FilmRange, BrightAndDimInOnePicture) {
+    panel(-2.0f, 0.0f, 1e-4f);
+    panel(0.0f, 2.0f, 1e4f);
+    const RenderOutput output = render(device(), builder_.scene);
+    EXPECT_NEAR(meanOf(output, 5, 8) / 1e4, 1.0, tolerance());
+    if (GetParam() == Integrator::kPath) {
+        // A quantum is a 2^-30th of about 5000: 0.047 of the dim value. 6144 samples of that, 5 standard
+        // errors.
+        EXPECT_NEAR(meanOf(output, 0, 3) / 1e-4, 1.0, 0.02);
+    }
+    EXPECT_FALSE(output.statistics.filmOverflowed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, FilmRange, testing::Values(Integrator::kPath, Integrator::kLight),
+                         [](const auto& tested) { return std::string(nameOf(tested.param)); });
+
+// An emitter of a pixel that the first look misses, and 10^14 times as bright as the rest.
+TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
+    SceneBuilder builder;
+    Scene& scene = builder.scene;
+    scene.reflectance = *presetReflectance("global");
+    scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40.0f};
+    scene.render.width = scene.render.height = 256;
+    scene.render.bounces = 0;
+    scene.render.spp = 1;
+    Material wall, spot;
+    wall.emission.visible = glm::vec3(1.0f);
+    spot.emission.visible = glm::vec3(1e14f);
+    builder.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, builder.add(wall));
+    // The look takes pixels 4 k + 2; this is pixel (128, 127).
+    const float pixel = 2.0f * 4.0f * std::tan(glm::radians(20.0f)) / 256.0f, z = 1e-3f;
+    builder.quad({0.1f * pixel, 0.1f * pixel, z}, {0.9f * pixel, 0.1f * pixel, z},
+                 {0.9f * pixel, 0.9f * pixel, z}, {0.1f * pixel, 0.9f * pixel, z}, builder.add(spot));
+    scene.render.spp = 16;
+    const RenderOutput output = render(device(), scene);
+    EXPECT_TRUE(output.statistics.filmOverflowed);
+    const RadianceImage image = output.film.resolve();
+    const float largest = static_cast<float>(output.film.largestRadiance());
+    EXPECT_GE(largest, 0x1p28f);
+    EXPECT_GT(image.visible[127 * 256 + 128].x, 0.3f * largest);
+    EXPECT_LE(image.visible[127 * 256 + 128].x, largest);
+    EXPECT_EQ(image.visible[0].x, 1.0f);
+    // A hundredth of it is held, though it was not seen at first.
+    for (Material& material : scene.materials)
+        material.emission.visible = glm::min(material.emission.visible, glm::vec3(1e11f));
+    EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);
+}
+
+}  // namespace
+}  // namespace duolux::test
