@@ -10,6 +10,7 @@
 #include "host/base/parallel.h"
 #include "host/bvh/tree_cache.h"
 #include "host/gpu/lights.h"
+#include "host/gpu/surface_planes.h"
 #include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
@@ -41,14 +42,13 @@ std::uint32_t materialFlags(const Geometry& geometry, std::uint32_t triangle) {
     return geometry.materials[triangle] | (isSmooth(geometry, triangle) ? shared::kTriangleSmooth : 0u);
 }
 
-shared::DevicePair devicePair(const Geometry& geometry, const TrianglePair& pair,
+shared::DevicePair devicePair(const Geometry& geometry, const SurfacePlanes& planes, const TrianglePair& pair,
                               const PairCorners& corners) {
     const auto position = [&](std::size_t corner) { return geometry.positions[corners.positions[corner]]; };
     const std::uint32_t second = pair.isSingle() ? pair.first : pair.second;
-    return {position(0), pair.first,
-            position(1), materialFlags(geometry, second),
-            position(2), materialFlags(geometry, pair.first),
-            position(3), pair.second};
+    const std::uint32_t secondRank = pair.isSingle() ? TrianglePair::kNone : planes.rankOf(pair.second);
+    return {position(0), planes.rankOf(pair.first),           position(1), materialFlags(geometry, second),
+            position(2), materialFlags(geometry, pair.first), position(3), secondRank};
 }
 
 /// `turn`: the corner that comes first.
@@ -119,6 +119,16 @@ Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitte
     return trees;
 }
 
+/// Of each triangle of the scene its index among the device's, or that of a copy.
+std::vector<std::uint32_t> deviceTriangles(const Trees& trees, std::size_t count) {
+    std::vector<std::uint32_t> places(count);
+    for (std::uint32_t i = 0; i < trees.pairs.size(); ++i) {
+        places[trees.pairs[i].first] = 2 * i;
+        if (!trees.pairs[i].isSingle()) places[trees.pairs[i].second] = 2 * i + 1;
+    }
+    return places;
+}
+
 void storeMatrix(const LightMatrix& m, glm::vec4 (&out)[4]) {
     out[0] = glm::vec4(m.m00, 0.0f);
     out[1] = glm::vec4(m.m01, 0.0f);
@@ -174,7 +184,7 @@ std::vector<Binding> DeviceScene::treeBindings() const {
 
 std::uint64_t DeviceScene::deviceBytes() const {
     return nodes.allocated() + triangles.allocated() + normals.allocated() + materials.allocated() +
-           lights.allocated() + (structure ? structure->allocated() : 0);
+           lights.allocated() + planes.allocated() + (structure ? structure->allocated() : 0);
 }
 
 void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene) {
@@ -207,26 +217,40 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
     const double buildSeconds = secondsSince(start);
 
     start = std::chrono::steady_clock::now();
-    const LightTable table = buildLightTable(scene, traits.secondColumn || lightPaths);
+    const SurfacePlanes surfaces(scene);
+    std::vector<glm::vec4> planes(surfaces.used() ? 2 * trees.pairs.size() : 0);
     std::vector<shared::DevicePair> pairs(trees.pairs.size());
     std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : 2 * pairs.size());
     parallelFor(pairs.size(), 1 << 15, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const TrianglePair& pair = trees.pairs[i];
             const PairCorners corners = cornersOf(geometry, pair).value();
-            pairs[i] = devicePair(geometry, pair, corners);
+            pairs[i] = devicePair(geometry, surfaces, pair, corners);
+            for (std::size_t k = 0; k < (surfaces.used() ? (pair.isSingle() ? 1 : 2) : 0); ++k) {
+                planes[2 * i + k] = surfaces.planeOf(k == 0 ? pair.first : pair.second);
+            }
             if (normals.empty()) continue;
             normals[2 * i] = deviceNormals(geometry, pair.first, corners.turns[0]);
             normals[2 * i + 1] = deviceNormals(geometry, pair.second, corners.turns[1]);
         }
     });
-    requireDeviceMemory(device.info(),
-                        trees.nodes.size() * sizeof(shared::WideNode) +
-                            pairs.size() * sizeof(shared::DevicePair) +
-                            normals.size() * sizeof(shared::DeviceNormals) +
-                            scene.materials.size() * sizeof(shared::DeviceMaterial) +
-                            table.lights.size() * sizeof(shared::DeviceLight),
-                        scene);
+    LightTable table = buildLightTable(scene, traits.secondColumn || lightPaths);
+    if (surfaces.used()) {
+        const std::vector<std::uint32_t> places = deviceTriangles(trees, geometry.triangles.size());
+        for (std::size_t i = 0; i < table.lights.size(); ++i) {
+            const std::uint32_t triangle = table.triangles[i];
+            table.lights[i].triangle = places[triangle];
+            table.lights[i].primitive = surfaces.rankOf(triangle);
+            table.lights[i].coincident = surfaces.coincident(triangle) ? 1 : 0;
+        }
+    }
+    requireDeviceMemory(
+        device.info(),
+        trees.nodes.size() * sizeof(shared::WideNode) + pairs.size() * sizeof(shared::DevicePair) +
+            normals.size() * sizeof(shared::DeviceNormals) +
+            scene.materials.size() * sizeof(shared::DeviceMaterial) +
+            table.lights.size() * sizeof(shared::DeviceLight) + planes.size() * sizeof(glm::vec4),
+        scene);
     using Use = BufferUse;
     const Use treeUse = tuning.layout == Layout::kStorage ? Use::kStorage : Use::kTexels;
     DeviceScene out{
@@ -234,6 +258,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
         .tuning = tuning,
         .hasEmitters = !emitters.empty(),
         .hasSmoothNormals = !normals.empty(),
+        .hasPlanes = surfaces.used(),
         .closedFormApplies = traits.transmittance == shared::kTransmittanceIdentity && normals.empty() &&
                              !table.lights.empty() && table.lights.size() <= kMostClosedFormLights,
         .lightCount = static_cast<std::uint32_t>(table.lights.size()),
@@ -249,6 +274,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
         .materials = Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels,
                                                             deviceMaterials(scene, table), "materials"),
         .lights = Buffer::upload<shared::DeviceLight>(device, Use::kTexels, table.lights, "lights"),
+        .planes = Buffer::upload<glm::vec4>(device, Use::kTexels, planes, "planes"),
     };
     out.uploadSeconds = secondsSince(start);
     if (rayQueries) {

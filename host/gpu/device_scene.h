@@ -23,17 +23,18 @@ struct DeviceScene {
     Tuning tuning;
     bool hasEmitters = false;  ///< some triangle emits; then there is a tree over the emitting ones
     bool hasSmoothNormals = false;
+    bool hasPlanes = false;  ///< distances are found by planes, see SurfacePlanes
     /// Direct light has a closed form: nothing can be between a surface and an emitter, normals are flat, and
     /// the emitters are so few that a formula for each costs no more than sampling one.
     bool closedFormApplies = false;
-    std::uint32_t lightCount = 0;   ///< triangles that next-event estimation samples
-    std::uint32_t emitterRoot = 0;  ///< as in shared::PathParams
-    Bounds emitterBounds{};         ///< of what emits, widened by more than rounding can move a hit
+    std::uint32_t lightCount = 0;    ///< triangles that next-event estimation samples
+    std::uint32_t emitterRoot = 0;   ///< as in shared::PathParams
+    Bounds emitterBounds{};          ///< of what emits, widened by more than rounding can move a hit
     double brightestEmission = 0.0;  ///< radiance
     double buildSeconds = 0.0, uploadSeconds = 0.0;
 
     Buffer nodes;  ///< empty with Layout::kRayQuery
-    Buffer triangles, normals, materials, lights;
+    Buffer triangles, normals, materials, lights, planes;
     std::optional<AccelerationStructure> structure{};  ///< with Layout::kRayQuery
 
     /// What the traversal needs.

@@ -60,7 +60,7 @@ LightTable buildLightTable(const Scene& scene, bool bothComponents) {
     table.pdfArea.resize(scene.materials.size(), 0.0f);
     std::vector<double> weights;
     double total = 0.0;
-    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
         const std::uint32_t material = geometry.materials[i];
         const double bright = brightness(scene.materials[material].emission, bothComponents);
         if (!(bright > 0.0)) continue;
@@ -72,10 +72,12 @@ LightTable buildLightTable(const Scene& scene, bool bothComponents) {
             0.5 * glm::length(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)));
         weights.push_back(area * bright);
         total += weights.back();
-        table.lights.push_back({a, material, b, pointErrorOf(a, b, c), c, 0, 0.0f, 0, {0, 0}});
+        table.lights.push_back({a, material, b, pointErrorOf(a, b, c), c, 0, 0.0f, 0, 0, 0});
+        table.triangles.push_back(i);
     }
     if (!(total > 0.0)) {
         table.lights.clear();
+        table.triangles.clear();
         return table;
     }
     const std::vector<AliasEntry> aliases = buildAliasTable(weights);

@@ -12,7 +12,8 @@ namespace duolux {
 /// Emitting triangles with an alias table over their power, and the density it gives each material.
 struct LightTable {
     std::vector<shared::DeviceLight> lights;
-    std::vector<float> pdfArea;  ///< per material of the scene, m^-2: 0 if it does not emit
+    std::vector<std::uint32_t> triangles;  ///< of each light, its index in the scene
+    std::vector<float> pdfArea;            ///< per material of the scene, m^-2: 0 if it does not emit
 };
 
 /// `bothComponents`: the power of both counts, because visible emission reaches surfaces or light paths carry

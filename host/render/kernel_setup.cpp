@@ -67,6 +67,7 @@ std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer&
     bindings.push_back({shared::kBindingMaterials, &deviceScene.materials});
     bindings.push_back({shared::kBindingLights, &deviceScene.lights});
     bindings.push_back({shared::kBindingParams, &params});
+    bindings.push_back({shared::kBindingPlanes, &deviceScene.planes});
     return bindings;
 }
 
@@ -85,6 +86,7 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
             {shared::kSpecVisibleCrosses, traits.visibleCrosses},
             {shared::kSpecOneReflectance, traits.oneReflectance},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
+            {shared::kSpecPlanes, deviceScene.hasPlanes},
             {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent
                                                                                  : shared::kSamplerSobol},
             {shared::kSpecTeamSize, tuning.lanes}};

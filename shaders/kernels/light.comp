@@ -32,6 +32,7 @@ layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normal
 layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
 layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
+layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { LaneResult results[]; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 #ifdef DUOLUX_INT64_ATOMICS
@@ -52,6 +53,7 @@ layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 
 uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
 uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
+uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
 uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
 
 LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
@@ -125,8 +127,8 @@ void splat(inout LaneSums sums, Light light, Connection connection, uvec2 path) 
 
 // Sets up a ray to the camera.
 void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
-    CameraConnection camera = connectToCamera(params, outgoing.origin);
-    float cosine = max(dot(outgoing.normal, camera.direction), 0.0);
+    CameraConnection camera = connectToCamera(params, outgoing.point.position);
+    float cosine = max(dot(outgoing.point.geometricNormal, camera.direction), 0.0);
     float factor = cosine * camera.importance / (camera.distance * camera.distance);
     Light arriving = lightScale(outgoing.radiance, vec3(factor));
     // Light that counts less than its brightness, by components that are not displayed, is connected less often.
@@ -140,11 +142,12 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     float roulette = sampleChoice(path.id.y, path.id.x, dimension, params.seed).x;
     // Not the other way round: what is not a number is traced, and counted when it arrives.
     connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
-    connection.origin = outgoing.origin;
+    RayBegin begin = leaveSurface(outgoing.point, camera.direction);
+    connection.origin = begin.origin;
     connection.direction = camera.direction;
     connection.distance = camera.distance;
-    connection.t = 0.0;
-    connection.primitive = kNoTriangle;
+    connection.t = begin.t;
+    connection.order = begin.order;
     connection.light = arriving;
     connection.roulette = roulette;
     connection.survival = survival;
@@ -162,7 +165,7 @@ void emitPath(out LightPath path, out Vertex vertex, out Outgoing outgoing, uvec
     bool front = !bothSides || sampleChoice(id.y, id.x, dimension, params.seed).y < 0.5;
     vec3 normal = front ? light.normal : -light.normal;
     Light flux = lightScale(material.emission, vec3(emittedFlux(material.lightPdfArea, bothSides ? 2.0 : 1.0)));
-    SurfacePoint point = SurfacePoint(light.position + normal * light.positionError, normal, normal);
+    SurfacePoint point = pointOnLight(light, normal);
     // Its directions are those of a white diffuse surface.
     vertex = Vertex(flux, Bsdf(vec3(1.0)), point, normal, 1.0, 0.0);
     path.id = id;
@@ -173,8 +176,7 @@ void emitPath(out LightPath path, out Vertex vertex, out Outgoing outgoing, uvec
 
     // Whatever side the particle leaves from, the camera sees the one that faces it.
     bool seenFront = dot(light.normal, params.cameraPosition - light.position) > 0.0;
-    outgoing.normal = seenFront ? light.normal : -light.normal;
-    outgoing.origin = light.position + outgoing.normal * light.positionError;
+    outgoing.point = pointOnLight(light, seenFront ? light.normal : -light.normal);
     outgoing.radiance = lightScale(materialEmission(material, seenFront), vec3(1.0 / material.lightPdfArea));
     outgoing.scatterings = 0u;
 }
@@ -201,10 +203,11 @@ void beginSegment(inout LightPath path, Vertex vertex, uint purpose) {
     vec3 normal = vertex.point.geometricNormal;
     BsdfSample s = bsdfSample(vertex.bsdf, toFrame(normal, vertex.wi), u);
     path.flux = lightScale(vertex.flux, s.weight);
-    path.origin = vertex.point.position;
     path.direction = fromFrame(normal, s.wi);
-    path.t = 0.0;
-    path.primitive = kNoTriangle;
+    RayBegin begin = leaveSurface(vertex.point, path.direction);
+    path.origin = begin.origin;
+    path.t = begin.t;
+    path.order = begin.order;
     path.scatterings += purpose == kDimensionDirection ? 1u : 0u;
     path.crossings = 0u;
     path.ended = !(s.pdf > 0.0);
@@ -220,7 +223,7 @@ void meetConnection(inout Connection connection, inout LaneSums sums, uvec2 path
         connection.survival *= connectionSurvival(rowWeighted(through), before);
         connection.light = through;
         connection.t = ray.t;
-        connection.primitive = ray.primitive;
+        connection.order = ray.order;
         connection.pending = connection.roulette < connection.survival;
         return;
     }
@@ -242,13 +245,15 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
     bool front = dot(normal, path.direction) < 0.0;
 
+    bool behindOthers = kPlanes && path.crossings > 0u && path.t == ray.t;
     SurfacePoint point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, path.direction, kSmoothNormals);
+    point = placedByPlane(point, path.origin + path.direction * ray.t, behindOthers);
     vec3 wi = -path.direction;
     float adjoint = materialScatters(material, front) ? shadingAdjoint(point, wi) : 0.0;
     Light scattered = lightScale(lightApply(opaqueOf(materialIndex), path.flux), vec3(adjoint));
     vec3 wo = normalize(params.cameraPosition - point.position);
     vec3 f = bsdfEvaluate(material.bsdf, toFrame(point.shadingNormal, wo), toFrame(point.shadingNormal, wi));
-    outgoing = Outgoing(point.position, point.geometricNormal, lightScale(scattered, f), path.scatterings + 1u);
+    outgoing = Outgoing(point, lightScale(scattered, f), path.scatterings + 1u);
 
     float weight = carried(lightScale(scattered, bsdfAlbedo(material.bsdf, wi)));
     if (weight > 0.0) {
@@ -265,7 +270,7 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     if (kTransmittance == kTransmittanceZero) return false;
     path.flux = lightApply(transparentOf(materialIndex), path.flux);
     path.t = ray.t;
-    path.primitive = ray.primitive;
+    path.order = ray.order;
     path.crossings += 1u;
     return carried(path.flux) > 0.0;
 }
@@ -285,7 +290,7 @@ Traversal nextRay(LightPath path, Connection connection, inout LaneSums sums) {
     sums.bounceRays += onPath && !emitted ? 1u : 0u;
     Traversal ray = traversalStart(0u, toCamera ? connection.origin : path.origin,
                                    toCamera ? connection.direction : path.direction,
-                                   toCamera ? connection.t : path.t, toCamera ? connection.primitive : path.primitive,
+                                   toCamera ? connection.t : path.t, toCamera ? connection.order : path.order,
                                    toCamera ? connection.distance : kInfinity,
                                    toCamera && kCameraTransmittance != kTransmittanceGeneral);
     ray.nodesLeft = toCamera || onPath;
@@ -297,7 +302,7 @@ void main() {
     uint teamBegin = team * dispatch.teamPaths;
     if (teamBegin >= dispatch.count) return;
     uint teamPaths = min(dispatch.teamPaths, dispatch.count - teamBegin);
-    const bool ordered = kTransmittance != kTransmittanceZero;
+    const bool ordered = kTransmittance != kTransmittanceZero || kPlanes;
     uint progress = dispatch.firstTeam + team;
 
     LaneSums sums = emptySums();

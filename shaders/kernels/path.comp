@@ -25,6 +25,7 @@ layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normal
 layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
 layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
+layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
 layout(binding = kBindingPixels, rgba32ui) uniform readonly uimageBuffer pixelTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotResult results[]; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
@@ -41,6 +42,7 @@ layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; }
 
 uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
 uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
+uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
 uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
 
 LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
@@ -58,7 +60,7 @@ struct Path {
     vec3 origin;
     vec3 direction;
     float t;             // the last surface crossed on the segment, and where: the walk goes on after it
-    uint primitive;
+    uint order;
     float bsdfPdf;       // density of the direction, per steradian
     uint scatterings;    // events before the segment
     uint crossings;      // on the segment
@@ -79,9 +81,10 @@ struct Shadow {
     bool pending;
     vec3 origin;
     vec3 direction;
-    float distance;
+    float distance;      // of the emitter, and its order if it has coincident surfaces
+    uint beforeOrder;
     float t;             // last surface crossed
-    uint primitive;
+    uint order;
     LightMatrix importance;  // W O f cos / pdf and what was crossed so far (kTransmittanceGeneral)
     Light emission;          // of the emitter (kTransmittanceGeneral), or else the contribution if nothing is in between
     uint scatterings;        // events on the whole path, for the statistics
@@ -99,7 +102,7 @@ Path cameraPath(uint pixel, vec2 u) {
     path.origin = ray.origin;
     path.direction = ray.direction;
     path.t = 0.0;
-    path.primitive = kNoTriangle;
+    path.order = kNoTriangle;
     path.bsdfPdf = 0.0;
     path.scatterings = 0u;
     path.crossings = 0u;
@@ -112,8 +115,8 @@ void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex,
     LightSample light = sampleLight(params.lightCount, u);
     vec3 offset = light.position - vertex.point.position;
     float side = dot(light.normal, offset) < 0.0 ? 1.0 : -1.0;
-    // To just in front of the emitter, which must not hide itself.
-    vec3 toLight = offset + light.normal * (side * light.positionError);
+    // To just in front of the emitter, which must not hide itself; or to itself, if surfaces that coincide with it may.
+    vec3 toLight = offset + light.normal * (light.coincident != 0u ? 0.0 : side * light.positionError);
     float distanceSquared = dot(toLight, toLight);
     float distance = sqrt(distanceSquared);
     vec3 direction = toLight / distance;
@@ -135,12 +138,19 @@ void connectToLight(inout Shadow shadow, inout Gathered gathered, Vertex vertex,
     if (kTransmittance == kTransmittanceIdentity) {
         if (contributes) gather(gathered, contribution, scatterings);
     } else if (contributes) {
+        RayBegin begin = leaveSurface(vertex.point, direction);
         shadow.pending = true;
-        shadow.origin = vertex.point.position;
+        shadow.origin = begin.origin;
         shadow.direction = direction;
         shadow.distance = distance;
-        shadow.t = 0.0;
-        shadow.primitive = kNoTriangle;
+        shadow.beforeOrder = kNoTriangle;
+        if (light.coincident != 0u) {
+            Plane plane = fetchPlane(light.triangle);
+            shadow.distance = planeDistance(plane, begin.origin, direction);
+            shadow.beforeOrder = orderOfSurface(light.primitive, dot(plane.normal, direction) < 0.0);
+        }
+        shadow.t = begin.t;
+        shadow.order = begin.order;
         shadow.scatterings = scatterings;
         if (kTransmittance == kTransmittanceGeneral) {
             shadow.importance = importance;
@@ -186,10 +196,11 @@ void endSegment(inout Path path, inout Vertex vertex, uint pixel, uint sampleInd
     vec3 direction = fromFrame(vertex.point.shadingNormal, s.wi);
     path.importance =
         lightScale(vertex.importance, s.weight * (weightSum / (vertex.weight * survival)));
-    path.origin = vertex.point.position;
+    RayBegin begin = leaveSurface(vertex.point, direction);
+    path.origin = begin.origin;
     path.direction = direction;
-    path.t = 0.0;
-    path.primitive = kNoTriangle;
+    path.t = begin.t;
+    path.order = begin.order;
     path.bsdfPdf = s.pdf;
     path.scatterings += 1u;
     path.crossings = 0u;
@@ -213,7 +224,7 @@ void meetShadow(inout Shadow shadow, inout Gathered gathered, Traversal ray, boo
         LightMatrix m = multiply(shadow.importance, transparentOf(material));
         shadow.importance = m;
         shadow.t = ray.t;
-        shadow.primitive = ray.primitive;
+        shadow.order = ray.order;
         shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
         return;
     }
@@ -247,7 +258,9 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
         Vertex here;
         here.importance = scattered;
         here.bsdf = material.bsdf;
+        bool behindOthers = kPlanes && path.crossings > 0u && path.t == ray.t;
         here.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, path.direction, kSmoothNormals);
+        here.point = placedByPlane(here.point, path.origin + path.direction * ray.t, behindOthers);
         here.weight = weight;
         here.weightSum = vertex.weightSum + weight;
         if (kDirectLight == kDirectLightClosedForm) gatherClosedForm(gathered, here, path.scatterings + 1u);
@@ -274,7 +287,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
         passes = maxComponent(through.m00 + through.m01 + through.m10 + through.m11) > 0.0;
         path.importance = through;
         path.t = ray.t;
-        path.primitive = ray.primitive;
+        path.order = ray.order;
         path.crossings += 1u;
     }
     if (!passes) endSegment(path, vertex, pixel, sampleIndex);
@@ -294,7 +307,7 @@ void main() {
     uint teamBegin = team * dispatch.teamSlots;
     if (teamBegin >= dispatch.slotCount) return;
     uint teamSlots = min(dispatch.teamSlots, dispatch.slotCount - teamBegin);
-    const bool ordered = kTransmittance != kTransmittanceZero;
+    const bool ordered = kTransmittance != kTransmittanceZero || kPlanes;
     uint progress = dispatch.firstTeam + team;
 
     uint taken = atomicAdd(teams[progress].taken, 1u);
@@ -357,8 +370,10 @@ void main() {
                                      shadow.pending ? shadow.origin : path.origin,
                                      shadow.pending ? shadow.direction : path.direction,
                                      shadow.pending ? shadow.t : path.t,
-                                     shadow.pending ? shadow.primitive : path.primitive,
-                                     shadow.pending ? shadow.distance : kInfinity, shadow.pending && !ordered);
+                                     shadow.pending ? shadow.order : path.order,
+                                     shadow.pending ? shadow.distance : kInfinity,
+                                     shadow.pending && kTransmittance == kTransmittanceZero);
+                if (kPlanes && shadow.pending) ray.order = shadow.beforeOrder;
             }
         } while (subgroupBallot(sampleIndex == endSample) == uvec4(0u));
 

@@ -23,6 +23,8 @@ layout(push_constant, scalar) uniform DispatchBlock { TraceDispatch dispatch; };
 
 #include "shaders/kernels/layout.glsl"
 
+uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }  // there are none: kPlanes is false
+
 const bool kOrdered = kMode == kTraceAllCrossings;
 
 Traversal startRay(uint index) {
@@ -85,7 +87,7 @@ void main() {
             crossings += 1u;
             first.normal = vec3(float(crossings), 0.0, 0.0);
             uvec4 t1 = imageLoad(rayTexels, int(2u * index + 1u));
-            ray = traversalStart(0u, ray.origin, ray.direction, ray.t, ray.primitive, uintBitsToFloat(t1.w), false);
+            ray = traversalStart(0u, ray.origin, ray.direction, ray.t, ray.order, uintBitsToFloat(t1.w), false);
             done = false;
         }
         if (done) {

@@ -4,6 +4,7 @@
 
 #include "shaders/lib/bsdf.glsl"
 #include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/lights.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/shared/light_layout.h"
 
@@ -15,7 +16,7 @@ struct LightPath {
     vec3 origin;
     vec3 direction;
     float t;           // the last surface crossed on the segment, and where: the walk goes on after it
-    uint primitive;
+    uint order;
     uint scatterings;  // events before the segment
     uint crossings;    // on the segment
     bool ended;
@@ -34,8 +35,7 @@ struct Vertex {
 // What leaves a point of a path for the camera, if that is on the side of the normal: radiance per path and unit of
 // area, the emitter's or what a surface scatters. (W sr^-1 in all, for a particle's flux is in W.)
 struct Outgoing {
-    vec3 origin;
-    vec3 normal;
+    SurfacePoint point;
     Light radiance;
     uint scatterings;  // events on the path
 };
@@ -47,7 +47,7 @@ struct Connection {
     vec3 direction;
     float distance;
     float t;            // last surface crossed
-    uint primitive;
+    uint order;
     Light light;        // what would arrive if nothing more came in between
     float roulette;     // a uniform number, and the part of all connections that are still under way
     float survival;
@@ -55,6 +55,12 @@ struct Connection {
     uint scatterings;   // events on the path, for the statistics
     uint dimension;     // of its random numbers
 };
+
+// Of a sampled emitter, on the side of `normal`. It is behind others if surfaces coincide: they may be on either side.
+SurfacePoint pointOnLight(LightSample light, vec3 normal) {
+    vec3 position = light.coincident != 0u ? light.position : light.position + normal * light.positionError;
+    return SurfacePoint(position, normal, normal, light.triangle, light.coincident);
+}
 
 struct LaneSums {
     uint nonFinite;

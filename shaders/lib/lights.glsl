@@ -5,6 +5,7 @@
 #define DUOLUX_LIB_LIGHTS_GLSL
 
 #include "shaders/lib/intersect.glsl"
+#include "shaders/lib/plane.glsl"
 #include "shaders/lib/rng.glsl"
 #include "shaders/lib/warp.glsl"
 #include "shaders/shared/path_layout.h"
@@ -18,14 +19,18 @@ struct LightTriangle {
     vec3 v2;
     uint material;
     float positionError;
+    uint triangle;    // as in DeviceLight
+    uint primitive;
+    uint coincident;
 };
 
 LightTriangle fetchLight(uint index) {
     uvec4 t0 = fetchLightTexel(index * kLightTexels);
     uvec4 t1 = fetchLightTexel(index * kLightTexels + 1u);
     uvec4 t2 = fetchLightTexel(index * kLightTexels + 2u);
+    uvec4 t3 = fetchLightTexel(index * kLightTexels + 3u);
     return LightTriangle(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t0.w,
-                         uintBitsToFloat(t1.w));
+                         uintBitsToFloat(t1.w), t2.w, t3.z, t3.w);
 }
 
 struct LightSample {
@@ -33,6 +38,9 @@ struct LightSample {
     vec3 normal;          // unit, of the front
     uint material;
     float positionError;
+    uint triangle;        // as in DeviceLight
+    uint primitive;
+    uint coincident;      // 1: other surfaces lie in the same place
 };
 
 // A point with density DeviceMaterial.lightPdfArea: an emitting triangle by the alias table, then uniform on it.
@@ -52,7 +60,14 @@ LightSample sampleLight(uint lightCount, uvec2 u) {
     LightTriangle light = fetchLight(index);
     vec3 normal = normalize(cross(light.v1 - light.v0, light.v2 - light.v0));
     vec3 position = light.v0 * (1.0 - b.x - b.y) + light.v1 * b.x + light.v2 * b.y;
-    return LightSample(position, normal, light.material, light.positionError);
+    float error = light.positionError;
+    if (kPlanes) {
+        Plane plane = fetchPlane(light.triangle);
+        position = ontoPlane(plane, position);
+        error = planeError(plane, position);
+    }
+    return LightSample(position, normal, light.material, error, light.triangle, light.primitive,
+                       kPlanes ? light.coincident : 0u);
 }
 
 // The flux (W) that one particle from an emitter's side carries if its point was picked by sampleLight, its side evenly

@@ -11,6 +11,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 
 #include "shaders/lib/fetch_triangle.glsl"
+#include "shaders/lib/plane.glsl"
 #include "shaders/shared/bvh_layout.h"
 
 uvec4 fetchNodeTexel(uint index);
@@ -19,20 +20,20 @@ uvec4 fetchNodeTexel(uint index);
 layout(constant_id = 18) const bool kVoteByShuffle = false;
 
 struct Traversal {
-    // The ray. Hits are looked for after (tMin, afterPrimitive) in the order of (distance, primitive).
+    // The ray. Hits are looked for after (tMin, afterOrder) in the order of (distance, orderOfSurface).
     vec3 origin;
     vec3 direction;
     vec3 inverse;
     vec3 axisU;
     vec3 axisV;
     float tMin;
-    uint afterPrimitive;
+    uint afterOrder;
     bool anyHit;
     uint octant;
-    // The nearest hit so far; triangle == kNoTriangle: none, and t is the largest distance.
+    // The nearest hit so far; triangle == kNoTriangle: none, and hits are before (t, order).
     float t;
     uint triangle;
-    uint primitive;
+    uint order;
     vec2 barycentric;
     // Position in the tree: a group of sibling nodes still to visit (bits 24..31 of groupMask by visiting order, bits
     // 0..7 the slots that hold nodes), and pairs of triangles still to test.
@@ -49,8 +50,9 @@ struct Traversal {
 uint stackBase[kMaxTreeDepth];
 uint stackMask[kMaxTreeDepth];
 
-// Starts at the tree whose root is node `root`.
-Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterPrimitive, float tMax,
+// Starts at the tree whose root is node `root`. With kNoTriangle for afterOrder no surface at the distance tMin is met; to
+// leave out some at tMax, set `order`.
+Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterOrder, float tMax,
                          bool anyHit) {
     Traversal r;
     r.origin = origin;
@@ -58,12 +60,12 @@ Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uin
     r.inverse = vec3(safeInverse(direction.x), safeInverse(direction.y), safeInverse(direction.z));
     orthonormalBasis(direction, r.axisU, r.axisV);
     r.tMin = tMin;
-    r.afterPrimitive = afterPrimitive;
+    r.afterOrder = afterOrder;
     r.anyHit = anyHit;
     r.octant = (r.inverse.x < 0.0 ? 0u : 4u) | (r.inverse.y < 0.0 ? 0u : 2u) | (r.inverse.z < 0.0 ? 0u : 1u);
     r.t = tMax;
     r.triangle = kNoTriangle;
-    r.primitive = kNoTriangle;
+    r.order = kNoTriangle;
     r.barycentric = vec2(0.0);
     r.groupBase = root;
     r.groupMask = 0x80000000u;
@@ -147,15 +149,23 @@ void visitNode(inout Traversal r) {
 
 void testTriangle(inout Traversal r, Triangle tri, uint index, bool ordered) {
     TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV, ordered);
-    bool accepted = h.hit && h.t < r.t && h.t > r.tMin;
+    float t = h.t;
+    bool front = h.front;
+    if (kPlanes) {
+        Plane plane = fetchPlane(index);
+        t = planeDistance(plane, r.origin, r.direction);
+        front = dot(plane.normal, r.direction) < 0.0;
+    }
+    uint order = orderOfSurface(tri.primitive, front);
+    bool accepted = h.hit && t < r.t && t > r.tMin;
     if (ordered) {  // coincident surfaces are met one after the other
-        bool after = h.t > r.tMin || (h.t == r.tMin && tri.primitive > r.afterPrimitive);
-        bool nearer = h.t < r.t || (h.t == r.t && tri.primitive < r.primitive);
+        bool after = t > r.tMin || (t == r.tMin && order > r.afterOrder);
+        bool nearer = t < r.t || (t == r.t && order < r.order);
         accepted = h.hit && after && nearer;
     }
-    r.t = accepted ? h.t : r.t;
+    r.t = accepted ? t : r.t;
     r.triangle = accepted ? index : r.triangle;
-    r.primitive = accepted ? tri.primitive : r.primitive;
+    r.order = accepted ? order : r.order;
     r.barycentric = accepted ? h.barycentric : r.barycentric;
 }
 

@@ -58,7 +58,7 @@ static_assert(offsetof(WideNode, meta) == 24 && offsetof(WideNode, lower) == 32 
 
 struct DevicePair {
     vec3 v0;
-    uint primitive0;  // its number in the scene, the same for every copy; orders coincident hits
+    uint primitive0;  // its rank, below 2^31, the same for every copy: orders coincident hits
     vec3 v1;
     uint materialFlags1;  // material index | flags
     vec3 v2;
@@ -68,6 +68,10 @@ struct DevicePair {
 };
 static_assert(sizeof(DevicePair) == kPairTexels * 16);
 #endif
+
+// Texels: the plane of each triangle, where kSpecPlanes is true: its front's unit normal, and dot(normal, x) on it.
+DUOLUX_CONST uint kBindingPlanes = 10u;
+DUOLUX_CONST uint kSpecPlanes = 19u;
 
 DUOLUX_CONST uint kMaterialMask = 0x7fffffffu;
 DUOLUX_CONST uint kTriangleSmooth = 0x80000000u;  // has shading normals

@@ -159,10 +159,11 @@ struct DeviceLight {
     vec3 v1;
     float positionError;  // bound on the rounding error of a point on the triangle, as for hits
     vec3 v2;
-    uint unused;
+    uint triangle;    // its index among the device's triangles, kSpecPlanes only
     float threshold;  // keep this light with this probability,
     uint alias;       // else take that one
-    uint padding[2];
+    uint primitive;   // its rank
+    uint coincident;  // 1 if other surfaces lie in the same place, kSpecPlanes only
 };
 static_assert(sizeof(DeviceLight) == kLightTexels * 16);
 #endif

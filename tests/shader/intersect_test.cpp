@@ -43,7 +43,7 @@ const ShaderLibrary& intersect() {
 std::vector<ShotHit> shoot(const std::vector<Shot>& shots) {
     return intersect().evaluate<ShotHit>(R"(
         vec3 axisU, axisV;
-        orthonormalBasis(x0.direction, axisU, axisV, false);
+        orthonormalBasis(x0.direction, axisU, axisV);
         TriangleHit h = intersectTriangle(Triangle(x0.v0, x0.v1, x0.v2, 0u, 0u), x0.origin, x0.direction, axisU, axisV, false);
         result = ShotHit(h.hit ? 1u : 0u, h.t, h.barycentric);)",
                                          shots);

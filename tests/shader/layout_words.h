@@ -169,10 +169,11 @@ inline void listFields(const shared::DeviceLight& s, WordList& list) {
     DUOLUX_FIELD(v1);
     DUOLUX_FIELD(positionError);
     DUOLUX_FIELD(v2);
-    DUOLUX_FIELD(unused);
+    DUOLUX_FIELD(triangle);
     DUOLUX_FIELD(threshold);
     DUOLUX_FIELD(alias);
-    DUOLUX_FIELD(padding);
+    DUOLUX_FIELD(primitive);
+    DUOLUX_FIELD(coincident);
 }
 inline void listFields(const shared::DevicePair& s, WordList& list) {
     DUOLUX_FIELD(v0);

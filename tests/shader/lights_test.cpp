@@ -71,9 +71,12 @@ std::vector<Emitter> emittersOf(const Scene& scene) {
     return out;
 }
 
+const char* const kNoPlanes = "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }";
+
 ShaderLibrary lightsOf(const std::vector<shared::DeviceLight>& lights) {
     ShaderLibrary library("shaders/lib/lights.glsl");
     library.texels("fetchLightTexel", std::span(lights));
+    library.define(kNoPlanes);
     return library;
 }
 
@@ -158,7 +161,8 @@ std::vector<shared::DeviceLight> stackedLights(const std::vector<AliasEntry>& ta
                           0,
                           table[i].threshold,
                           table[i].alias,
-                          {0, 0}});
+                          0,
+                          0});
     }
     return lights;
 }

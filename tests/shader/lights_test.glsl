@@ -2,6 +2,7 @@
 #include "shaders/lib/lights.glsl"
 
 uvec4 fetchLightTexel(uint index) { return uvec4(index); }
+uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 
 // 0.5 to 2, and of all magnitudes that densities have.
 float randomDensity() { return testIndex() % 2u == 0u ? randomFloat(0.5, 2.0) : randomScale(-60.0, 60.0); }

@@ -44,13 +44,16 @@ std::vector<double> numbers(const Array<N>& a) {
 DUOLUX_MIRROR_TYPE(Bsdf, s.diffuse);
 DUOLUX_MIRROR_TYPE(BsdfSample, s.wi, s.pdf, s.weight);
 DUOLUX_MIRROR_TYPE(Triangle, s.v0, s.v1, s.v2, s.primitive, s.materialFlags);
-DUOLUX_MIRROR_TYPE(SurfacePoint, s.position, s.geometricNormal, s.shadingNormal);
+DUOLUX_MIRROR_TYPE(SurfacePoint, s.position, s.geometricNormal, s.shadingNormal, s.triangle, s.behindOthers);
+DUOLUX_MIRROR_TYPE(Plane, s.normal, s.offset);
 DUOLUX_MIRROR_TYPE(LightMatrix, s.m00, s.m01, s.m10, s.m11);
 DUOLUX_MIRROR_TYPE(Light, s.invisible, s.visible);
 DUOLUX_MIRROR_TYPE(Material, s.bsdf.diffuse, s.flags, s.emission, s.lightPdfArea);
 DUOLUX_MIRROR_TYPE(FilmSum, s.r, s.g, s.b);
-DUOLUX_MIRROR_TYPE(LightTriangle, s.v0, s.v1, s.v2, s.material, s.positionError);
-DUOLUX_MIRROR_TYPE(LightSample, s.position, s.normal, s.material, s.positionError);
+DUOLUX_MIRROR_TYPE(LightTriangle, s.v0, s.v1, s.v2, s.material, s.positionError, s.triangle, s.primitive,
+                   s.coincident);
+DUOLUX_MIRROR_TYPE(LightSample, s.position, s.normal, s.material, s.positionError, s.triangle, s.primitive,
+                   s.coincident);
 DUOLUX_MIRROR_TYPE(Gathered, s.light, s.lastBounce, s.previousBounce);
 DUOLUX_MIRROR_TYPE(SlotSums, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
                    s.shadowRays, s.emitterRays, s.lastBounce, s.previousBounce);
@@ -68,7 +71,8 @@ inline twice::Triangle widen(const Triangle& t) {
     return {test::widen(t.v0), test::widen(t.v1), test::widen(t.v2), t.primitive, t.materialFlags};
 }
 inline twice::SurfacePoint widen(const SurfacePoint& p) {
-    return {test::widen(p.position), test::widen(p.geometricNormal), test::widen(p.shadingNormal)};
+    return {test::widen(p.position), test::widen(p.geometricNormal), test::widen(p.shadingNormal), p.triangle,
+            p.behindOthers};
 }
 inline twice::LightMatrix widen(const LightMatrix& m) {
     return {test::widen(m.m00), test::widen(m.m01), test::widen(m.m10), test::widen(m.m11)};

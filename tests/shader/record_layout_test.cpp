@@ -67,11 +67,13 @@ TEST(RecordLayout, LightsAreFetchedFieldByField) {
     using mirror::single::LightTriangle;
     const auto records = sentinels<shared::DeviceLight>(kRecords);
     ShaderLibrary library("shaders/lib/lights.glsl");
+    library.define("uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }");
     library.texels("fetchLightTexel", std::span(std::as_const(records)));
     const auto lights = library.call<LightTriangle>("fetchLight", recordIndices());
     for (std::size_t i = 0; i < kRecords; ++i)
         EXPECT_EQ(numbers(lights[i]),
-                  sentinelNumbers<shared::DeviceLight>(i, {"v0", "v1", "v2", "material", "positionError"}));
+                  sentinelNumbers<shared::DeviceLight>(i, {"v0", "v1", "v2", "material", "positionError",
+                                                           "triangle", "primitive", "coincident"}));
 }
 
 // The alias table's part of a light: entry 1 of 4 keeps itself below its threshold, else its alias is taken.
@@ -87,6 +89,7 @@ TEST(RecordLayout, AliasTableIsReadFieldByField) {
         records[i].alias = (i + 2) % 4;
     }
     ShaderLibrary library("shaders/lib/lights.glsl");
+    library.define("uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }");
     library.texels("fetchLightTexel", std::span(std::as_const(records)));
     std::vector<glm::uvec2> us;
     std::vector<std::uint32_t> expected;
@@ -105,7 +108,9 @@ TEST(RecordLayout, TrianglesAreFetchedFieldByField) {
     const auto records = sentinels<shared::DevicePair>(kRecords);
     ShaderLibrary library("shaders/lib/traverse.glsl");
     library.texels("fetchPairTexel", std::span(std::as_const(records)));
-    library.define("uvec4 fetchNodeTexel(uint index) { return uvec4(0u); }");
+    library.define(
+        "uvec4 fetchNodeTexel(uint index) { return uvec4(0u); }"
+        "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }");
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 2 * kRecords; ++i)
         indices.push_back(i);
@@ -230,7 +235,9 @@ TEST(RecordLayout, NodesAreVisitedByteByByte) {
     }
     ShaderLibrary library("shaders/lib/traverse.glsl");
     library.texels("fetchNodeTexel", std::span(nodes));
-    library.define("uvec4 fetchPairTexel(uint index) { return uvec4(0u); }");
+    library.define(
+        "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }"
+        "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }");
     // Where no inner child is hit there is no group, and its base means nothing.
     const auto seen = library.evaluate<glm::uvec4>(
         "Traversal r = traversalStart(2u, x0, x1, x2, 0u, x3, false); visitNode(r);"

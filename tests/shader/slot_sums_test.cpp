@@ -112,7 +112,8 @@ TEST_F(SlotSumsOracles, Results) {
 TEST(LightPathOracles, LaneResult) {
     using mirror::single::light_path::LaneSums;
     ShaderLibrary library("shaders/lib/light_path.glsl");
-    library.define("uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }");
+    for (const char* name : {"Normal", "Plane", "Pair", "Light"})
+        library.define("uvec4 fetch" + std::string(name) + "Texel(uint index) { return uvec4(0u); }");
     const std::vector<LaneSums> sums{library.call<LaneSums>("emptySums")[0],
                                      {1, 2, 3, 4, 5, {6, 7}, {8, 9}, {10, 11}, {12, 13}},
                                      {0xfffffff1,

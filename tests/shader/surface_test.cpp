@@ -20,8 +20,11 @@ using mirror::single::Triangle;
 const shared::DeviceNormals kCorners{{0x10002000u, 0xf0001800u, 0x0800e000u}, 0u};
 
 const ShaderLibrary& surface() {
-    static const ShaderLibrary library =
-        ShaderLibrary("shaders/lib/surface.glsl").texels("fetchNormalTexel", std::span(&kCorners, 1));
+    static const ShaderLibrary library = ShaderLibrary("shaders/lib/surface.glsl")
+                                             .texels("fetchNormalTexel", std::span(&kCorners, 1))
+                                             .define(
+                                                 "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }"
+                                                 "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }");
     return library;
 }
 
@@ -149,6 +152,58 @@ TEST(Surface, FramesMatchDoublePrecision) {
     }
 }
 
+/// The same with a plane: the point is put where the ray met it, on the ray's side by what its own size may
+/// be wrong, however large the triangle is; behind others it is on the plane, and a ray that leaves begins
+/// after the surface itself.
+TEST(Surface, WithPlanesPointsAreAsExactAsTheirOwnSize) {
+    const glm::vec4 plane(glm::normalize(glm::vec3(0.2f, 1.0f, -0.3f)), 0.25f);
+    const glm::vec3 normal(plane);
+    const std::vector<glm::vec4> planes{plane};
+    const std::vector<shared::DevicePair> pairs{{{}, 5, {}, 0, {}, 0, {}, 6}};
+    ShaderLibrary library("shaders/lib/surface.glsl");
+    library.texels("fetchPlaneTexel", std::span(planes))
+        .texels("fetchPairTexel", std::span(pairs))
+        .texels("fetchNormalTexel", std::span(&kCorners, 1))
+        .constant(shared::kSpecPlanes, 1);
+    std::vector<glm::vec3> at;
+    std::vector<SurfacePoint> points;
+    for (const glm::vec3& d : randomDirections(2000, 12)) {
+        // Near the plane, up to 100 away from the origin.
+        const glm::vec3 across = 100.0f * glm::pow(std::abs(d.x), 4.0f) * glm::normalize(d);
+        at.push_back(across - normal * (glm::dot(normal, across) - plane.w) + 1e-5f * d);
+        const float side = at.size() % 2 == 0 ? 1.0f : -1.0f;
+        points.push_back({glm::vec3(1e5f), side * normal, side * normal, 0u, 0u});
+    }
+    for (const std::uint32_t behind : {0u, 1u}) {
+        const auto placed =
+            library.evaluate<SurfacePoint>("result = placedByPlane(x0, x1, x2 != 0u);", points, at,
+                                           std::vector<std::uint32_t>(at.size(), behind));
+        const auto begins = library.evaluate<glm::vec4>(
+            "RayBegin b = leaveSurface(x0, x0.geometricNormal); result = vec4(b.t, uintBitsToFloat(b.order & "
+            "0xffffu), b.order == kNoTriangle ? 1.0 : 0.0, (b.order >> 31u) == 1u ? 1.0 : 0.0);",
+            placed);
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            const double size = static_cast<double>(glm::length(at[i])) + 0.25;
+            const double height =
+                glm::dot(glm::dvec3(normal), glm::dvec3(placed[i].position)) - static_cast<double>(plane.w);
+            const double along = glm::dot(glm::dvec3(placed[i].geometricNormal), glm::dvec3(normal)) * height;
+            EXPECT_LT(glm::length(glm::dvec3(placed[i].position) - glm::dvec3(at[i])), 3e-5 + 4e-6 * size);
+            if (behind == 0) {
+                EXPECT_GT(along, 1e-7 * size);
+                EXPECT_LT(along, 2e-6 * size);
+                EXPECT_EQ(begins[i].z, 1.0f);
+                EXPECT_EQ(begins[i].x, 0.0f);
+            } else {
+                EXPECT_LT(std::abs(along), 4e-7 * size);
+                EXPECT_LT(static_cast<double>(std::abs(begins[i].x)), 1e-6 * size);
+                EXPECT_EQ(begins[i].z, 0.0f);
+                // It leaves by the front or by the back: 5, or the complement of it.
+                EXPECT_EQ(begins[i].w, i % 2 == 1 ? 1.0f : 0.0f);
+            }
+        }
+    }
+}
+
 /// Positions in units of the triangle's size, so that one budget serves all.
 TEST(SurfaceOracles, AllFunctions) {
     mirror::texels().normals = {{kCorners.octahedral[0], kCorners.octahedral[1], kCorners.octahedral[2], 0u}};
@@ -177,7 +232,7 @@ TEST(SurfaceOracles, AllFunctions) {
         const glm::dvec3 w(h.rays[(i + 1) % h.rays.size()]);
         if (std::abs(glm::dot(shading, w)) < 1e-3 || std::abs(glm::dot(glm::dvec3(h.normals[i]), w)) < 0.05)
             continue;
-        points.push_back({glm::vec3(0.0f), h.normals[i], glm::vec3(shading)});
+        points.push_back({glm::vec3(0.0f), h.normals[i], glm::vec3(shading), 0u, 0u});
         wi.emplace_back(w);
     }
     EXPECT_ORACLES(surface(), shadingAdjoint, (Budget{8, 1e-5}), points, wi);

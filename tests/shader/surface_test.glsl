@@ -5,6 +5,11 @@
 uvec4 texel;
 uint fetchedIndex;
 
+uvec4 planeTexel;
+uvec4 pairTexel;
+uvec4 fetchPlaneTexel(uint index) { return planeTexel; }
+uvec4 fetchPairTexel(uint index) { return pairTexel; }
+
 uvec4 fetchNormalTexel(uint index) {
     fetchedIndex = index;
     return texel;
@@ -103,7 +108,7 @@ TEST(BothNormalsAreOnOneSideOfAGrazingRay) {
 }
 
 SurfacePoint pointWithNormals(vec3 geometric, vec3 shading) {
-    return SurfacePoint(vec3(0.0), geometric, shading);
+    return SurfacePoint(vec3(0.0), geometric, shading, 0u, 0u);
 }
 
 // Normals 60 degrees apart: cosines are 1, 1/2, and 0 at 90 degrees from either.
@@ -160,4 +165,16 @@ TEST_N(FramesAreThereAndBack, 8192) { expectFrame((testIndex() & 1u) == 0u ? ran
 TEST(FromFrameIsUnit) {
     vec3 w = randomDirection() * randomFloat(0.5, 2.0);
     EXPECT_NEAR(length(fromFrame(hardNormal(), w)), 1.0, 3e-7);
+}
+
+// Without planes a point stays, and a ray that leaves it begins there.
+TEST(WithoutPlanesNothingIsMoved) {
+    SurfacePoint point = pointWithNormals(randomDirection(), randomDirection());
+    point.position = randomVec3(-1.0, 1.0);
+    SurfacePoint placed = placedByPlane(point, randomVec3(-1.0, 1.0), true);
+    EXPECT_EQ(placed.position, point.position);
+    RayBegin begin = leaveSurface(placed, randomDirection());
+    EXPECT_EQ(begin.origin, point.position);
+    EXPECT_EQ(begin.t, 0.0);
+    EXPECT_EQ(begin.order, kNoTriangle);
 }

@@ -22,7 +22,7 @@ struct TestRay {
     float tMin;
     glm::vec3 direction;
     float tMax;
-    std::uint32_t afterPrimitive = kNone;
+    std::uint32_t afterOrder = kNone;
 };
 
 struct TestHit {
@@ -43,7 +43,7 @@ struct TraceOptions {
 }  // namespace duolux::test
 
 DUOLUX_GLSL_TYPE(duolux::test::TestRay, "TestRay",
-                 "vec3 origin; float tMin; vec3 direction; float tMax; uint afterPrimitive;");
+                 "vec3 origin; float tMin; vec3 direction; float tMax; uint afterOrder;");
 DUOLUX_GLSL_TYPE(duolux::test::TestHit, "TestHit",
                  "float t; uint triangle; uint primitive; vec2 barycentric; uint nodes;");
 DUOLUX_GLSL_TYPE(duolux::test::TraceOptions, "TraceOptions",
@@ -81,10 +81,11 @@ inline void append(DeviceTree& tree, const Geometry& geometry, const WideBvh& bv
 }
 
 /// Functions of the traversal on this tree; nodesFetched counts. A ray against all triangles, in the order of
-/// (distance, primitive), is a walk that knows no tree: closestOfAll.
+/// (distance, order), is a walk that knows no tree: closestOfAll.
 inline ShaderLibrary traversalOf(const DeviceTree& tree) {
     ShaderLibrary library("shaders/lib/traverse.glsl");
     library.define(R"(
+        uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
         uint nodesFetched = 0u;
         uvec4 storedNodeTexel(uint index);
         uvec4 fetchNodeTexel(uint index) {
@@ -99,11 +100,12 @@ inline ShaderLibrary traversalOf(const DeviceTree& tree) {
             for (uint i = 0u; i < count; i++) {
                 Triangle tri = fetchTriangle(i);
                 TriangleHit h = intersectTriangle(tri, r.origin, r.direction, r.axisU, r.axisV, true);
-                bool after = h.t > r.tMin || (h.t == r.tMin && tri.primitive > r.afterPrimitive);
-                if (h.hit && after && (h.t < r.t || (h.t == r.t && tri.primitive < r.primitive))) {
+                uint order = orderOfSurface(tri.primitive, h.front);
+                bool after = h.t > r.tMin || (h.t == r.tMin && order > r.afterOrder);
+                if (h.hit && after && (h.t < r.t || (h.t == r.t && order < r.order))) {
                     r.t = h.t;
                     r.triangle = i;
-                    r.primitive = tri.primitive;
+                    r.order = order;
                     r.barycentric = h.barycentric;
                 }
             }
@@ -116,10 +118,11 @@ inline ShaderLibrary traversalOf(const DeviceTree& tree) {
 inline std::vector<TestHit> trace(const ShaderLibrary& traversal, const std::vector<TestRay>& rays,
                                   const TraceOptions& options = {}) {
     return traversal.evaluate<TestHit>(R"(
-        Traversal r = traversalStart(x1.root, x0.origin, x0.direction, x0.tMin, x0.afterPrimitive, x0.tMax,
+        Traversal r = traversalStart(x1.root, x0.origin, x0.direction, x0.tMin, x0.afterOrder, x0.tMax,
                                      x1.anyHit != 0u);
         while (traversalAlive(r)) traverse(r, x1.ordered != 0u, x1.leaveTraversal, x1.leaveNodes);
-        result = TestHit(r.t, r.triangle, r.primitive, r.barycentric, nodesFetched);)",
+        uint primitive = r.triangle == kNoTriangle ? kNoTriangle : fetchTriangle(r.triangle).primitive;
+        result = TestHit(r.t, r.triangle, primitive, r.barycentric, nodesFetched);)",
                                        rays, options);
 }
 
@@ -163,7 +166,7 @@ inline std::vector<Walk> walk(const TracedScene& scene, const std::vector<TestRa
         .evaluate<Walk>(R"(
         result = Walk(0u, 0u);
         float tMin = x0.tMin;
-        uint after = x0.afterPrimitive;
+        uint after = x0.afterOrder;
         bool again = true;
         while (again) {
             Traversal all = traversalStart(0u, x0.origin, x0.direction, tMin, after, x0.tMax, false);
@@ -171,12 +174,12 @@ inline std::vector<Walk> walk(const TracedScene& scene, const std::vector<TestRa
             while (traversalAlive(r)) traverse(r, true, x1.leaveTraversal, x1.leaveNodes);
             closestOfAll(x2, all);
             bool same = floatBitsToUint(r.t) == floatBitsToUint(all.t) && r.triangle == all.triangle &&
-                        r.primitive == all.primitive && r.barycentric == all.barycentric;
+                        r.order == all.order && r.barycentric == all.barycentric;
             result.differences += same ? 0u : 1u;
             again = all.triangle != kNoTriangle && same;
             result.crossings += again ? 1u : 0u;
             tMin = all.t;
-            after = all.primitive;
+            after = all.order;
         })",
                         rays, options, count);
 }

@@ -219,22 +219,26 @@ TEST(TraverseOracles, NearestHits) {
     std::vector<TestRay> rays;
     for (int i = 0; i < 4000; ++i)
         rays.push_back({random.inBox(1.5f), 0.0f, random.direction(), kFar});
-    const auto single = [](const TestRay& ray) {
+    const auto primitiveOf = [](std::uint32_t triangle) {
+        return triangle == kNone ? kNone : mirror::single::fetchTriangle(triangle).primitive;
+    };
+    const auto single = [&](const TestRay& ray) {
         namespace m = mirror::single;
         m::Traversal r =
-            m::traversalStart(0, ray.origin, ray.direction, ray.tMin, ray.afterPrimitive, ray.tMax, false);
+            m::traversalStart(0, ray.origin, ray.direction, ray.tMin, ray.afterOrder, ray.tMax, false);
         while (m::traversalAlive(r))
             m::traverse(r, false, 1, 1);
-        return TestHit{r.t, r.triangle, r.primitive, r.barycentric, 0};
+        return TestHit{r.t, r.triangle, primitiveOf(r.triangle), r.barycentric, 0};
     };
-    const auto twice = [](const TestRay& ray) {
+    const auto twice = [&](const TestRay& ray) {
         namespace m = mirror::twice;
         m::Traversal r = m::traversalStart(0, glm::dvec3(ray.origin), glm::dvec3(ray.direction),
-                                           static_cast<double>(ray.tMin), ray.afterPrimitive,
+                                           static_cast<double>(ray.tMin), ray.afterOrder,
                                            static_cast<double>(ray.tMax), false);
         while (m::traversalAlive(r))
             m::traverse(r, false, 1, 1);
-        return TestHit{static_cast<float>(r.t), r.triangle, r.primitive, glm::vec2(r.barycentric), 0};
+        return TestHit{static_cast<float>(r.t), r.triangle, primitiveOf(r.triangle), glm::vec2(r.barycentric),
+                       0};
     };
     EXPECT_WITHIN_ORACLES("traverse", scene.trace(rays), Budget{4, 1e-5}, single, twice, rays);
 }

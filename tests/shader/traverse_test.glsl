@@ -5,6 +5,8 @@
 uvec4 pairTexels[32];
 uvec4 fetchPairTexel(uint index) { return pairTexels[index]; }
 uvec4 fetchNodeTexel(uint index) { return uvec4(0u); }
+vec4 planes[16];
+uvec4 fetchPlaneTexel(uint index) { return floatBitsToUint(planes[index]); }
 
 void putPair(uint pair, vec3 v0, vec3 v1, vec3 v2, vec3 v3, uint primitive0, uint primitive1) {
     pairTexels[4u * pair] = uvec4(floatBitsToUint(v0), primitive0);
@@ -13,11 +15,15 @@ void putPair(uint pair, vec3 v0, vec3 v1, vec3 v2, vec3 v3, uint primitive0, uin
     pairTexels[4u * pair + 3u] = uvec4(floatBitsToUint(v3), primitive1);
 }
 
-// A single triangle in the plane z = height, around the z axis.
-void putTriangle(uint pair, float height, uint primitive) {
-    vec3 v1 = vec3(1.0, -1.0, height);
-    putPair(pair, vec3(-1.0, -1.0, height), v1, vec3(0.0, 2.0, height), v1, primitive, kNoTriangle);
+// A single triangle in the plane z = height, around the z axis, its front below or above.
+void putTriangle(uint pair, float height, uint primitive, bool frontBelow) {
+    vec3 v1 = frontBelow ? vec3(0.0, 2.0, height) : vec3(1.0, -1.0, height);
+    vec3 v2 = frontBelow ? vec3(1.0, -1.0, height) : vec3(0.0, 2.0, height);
+    putPair(pair, vec3(-1.0, -1.0, height), v1, v2, v1, primitive, kNoTriangle);
 }
+
+// The front is what a ray along the z axis comes to.
+void putTriangle(uint pair, float height, uint primitive) { putTriangle(pair, height, primitive, true); }
 
 // Two triangles that both cross the z axis, at these heights: the pair is folded at an edge beside it.
 void putFolded(uint pair, float height0, float height1, uint primitive0, uint primitive1) {
@@ -68,13 +74,13 @@ TEST(StartsAtTheRootWithTheRay) {
     EXPECT_EQ(r.axisU, axisU);
     EXPECT_EQ(r.axisV, axisV);
     EXPECT_EQ(r.tMin, tMin);
-    EXPECT_EQ(r.afterPrimitive, after);
+    EXPECT_EQ(r.afterOrder, after);
     EXPECT_EQ(r.anyHit, anyHit);
     // Bits of the octant as those of a slot: set where the ray runs towards the upper side, XOR gives the nearest 7.
     EXPECT_EQ(r.octant, (d.x > 0.0 ? 4u : 0u) + (d.y > 0.0 ? 2u : 0u) + (d.z > 0.0 ? 1u : 0u));
     EXPECT_EQ(r.t, tMax);
     EXPECT_EQ(r.triangle, kNoTriangle);
-    EXPECT_EQ(r.primitive, kNoTriangle);
+    EXPECT_EQ(r.order, kNoTriangle);
     EXPECT_EQ(r.barycentric, vec2(0.0));
     EXPECT_EQ(uvec2(r.groupBase, r.groupMask), uvec2(root, 0x80000000u));
     EXPECT_EQ(r.pairMask, 0u);
@@ -116,7 +122,7 @@ TEST(PairsAreTestedFromTheLowestBitUp) {
     testPair(r, false);
     EXPECT_EQ(r.pairMask, mask ^ first);
     EXPECT_EQ(r.triangle, 2u * (2u + uint(findLSB(first))));
-    EXPECT_EQ(r.primitive, 102u + uint(findLSB(first)));
+    EXPECT_EQ(r.order, 102u + uint(findLSB(first)));
     EXPECT_NEAR(r.t, 3.0 + float(findLSB(first)), 1e-6);
     // The origin is a third from v0 to v1 and v2 each.
     EXPECT_NEAR(r.barycentric, vec2(1.0 / 3.0), 1e-6);
@@ -142,24 +148,24 @@ TEST_N(HitsLieBetweenTheDistances, 1) {
     EXPECT_EQ(r.t, 2.0);
     r = alongZ(1.5, 9u, 2.5, 0u, 1u);
     testPair(r, false);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(0u, 5u));
+    EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(0u, 5u));
     EXPECT_EQ(r.t, 2.0);
 
     r = alongZ(2.0, 4u, 9.0, 0u, 1u);
     testPair(r, true);
-    EXPECT_EQ(r.primitive, 5u);
+    EXPECT_EQ(r.order, 5u);
     r = alongZ(2.0, 5u, 9.0, 0u, 1u);
     testPair(r, true);
-    EXPECT_EQ(r.primitive, kNoTriangle);
+    EXPECT_EQ(r.order, kNoTriangle);
     r = alongZ(2.5, 4u, 9.0, 0u, 1u);
     testPair(r, true);
-    EXPECT_EQ(r.primitive, kNoTriangle);
+    EXPECT_EQ(r.order, kNoTriangle);
     r = alongZ(1.5, 9u, 9.0, 0u, 1u);
     testPair(r, true);
-    EXPECT_EQ(r.primitive, 5u);
+    EXPECT_EQ(r.order, 5u);
     r = alongZ(1.5, 9u, 1.75, 0u, 1u);
     testPair(r, true);
-    EXPECT_EQ(r.primitive, kNoTriangle);
+    EXPECT_EQ(r.order, kNoTriangle);
 }
 
 TEST_N(OfCoincidentHitsTheFirstPrimitiveIsMetFirst, 1) {
@@ -168,22 +174,22 @@ TEST_N(OfCoincidentHitsTheFirstPrimitiveIsMetFirst, 1) {
     putTriangle(2u, 2.0, 4u);
     Traversal r = alongZ(0.0, kNoTriangle, 9.0, 0u, 7u);
     testPair(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(0u, 5u));
+    EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(0u, 5u));
     testPair(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(2u, 3u));
+    EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(2u, 3u));
     testPair(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(2u, 3u));
+    EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(2u, 3u));
     EXPECT_EQ(r.pairMask, 0u);
     r = alongZ(2.0, 3u, 9.0, 0u, 7u);
     testPair(r, true);
     testPair(r, true);
     testPair(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(4u, 4u));
+    EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(4u, 4u));
     // Without order the first that was tested stays.
     r = alongZ(0.0, kNoTriangle, 9.0, 0u, 7u);
     testPair(r, false);
     testPair(r, false);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(0u, 5u));
+    EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(0u, 5u));
 }
 
 TEST(ATriangleThatIsNotHitChangesNothing) {
@@ -192,40 +198,67 @@ TEST(ATriangleThatIsNotHitChangesNothing) {
     Traversal r = traversalStart(0u, vec3(0.0), beside, 0.0, kNoTriangle, 9.0, false);
     r.pairMask = 1u;
     testPair(r, (randomUint() & 1u) == 0u);
-    EXPECT_EQ(uvec3(r.triangle, r.primitive, r.pairMask), uvec3(kNoTriangle, kNoTriangle, 0u));
+    EXPECT_EQ(uvec3(r.triangle, r.order, r.pairMask), uvec3(kNoTriangle, kNoTriangle, 0u));
     EXPECT_EQ(vec3(r.t, r.barycentric), vec3(9.0, 0.0, 0.0));
 }
 
-// Either may be the nearer one.
+// Either may be the nearer one. The first has its front below, the second above.
 TEST(BothTrianglesOfAPairAreMet) {
     float heights[2] = {randomFloat(1.0, 4.0), randomFloat(5.0, 9.0)};
     uint near = randomUint() & 1u;
+    uint orders[2] = {7u, ~8u};
     putFolded(1u, heights[near], heights[1u - near], 7u, 8u);
     Traversal r = alongZ(0.0, kNoTriangle, 20.0, 1u, 1u);
     testPair(r, (randomUint() & 1u) == 0u);
-    EXPECT_EQ(uvec3(r.triangle, r.primitive, r.pairMask), uvec3(2u + near, 7u + near, 0u));
+    EXPECT_EQ(uvec3(r.triangle, r.order, r.pairMask), uvec3(2u + near, orders[near], 0u));
     EXPECT_NEAR(r.t, heights[0], 1e-5);
     // On the axis, half way from the edge to the corner that is not on it: corner 0 and 3 come first.
     EXPECT_NEAR(r.barycentric, vec2(0.25), 1e-5);
     // The other one beyond it.
-    r = alongZ(r.t, r.primitive, 20.0, 1u, 1u);
+    r = alongZ(r.t, r.order, 20.0, 1u, 1u);
     testPair(r, true);
-    EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(3u - near, 8u - near));
+    EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(3u - near, orders[1u - near]));
     EXPECT_NEAR(r.t, heights[1], 1e-5);
-    r = alongZ(r.t, r.primitive, 20.0, 1u, 1u);
+    r = alongZ(r.t, r.order, 20.0, 1u, 1u);
     testPair(r, true);
     EXPECT_EQ(r.triangle, kNoTriangle);
 }
 
-// Its triangles lie on each other.
-TEST_N(APairFoldedShutIsMetInTheOrderOfPrimitives, 1) {
+// Its triangles lie on each other: the front of one comes first, whatever their primitives.
+TEST_N(APairFoldedShutIsMetFrontFirst, 1) {
     for (uint k = 0u; k < 2u; k++) {
         putFolded(0u, 3.0, 3.0, 5u + k, 6u - k);
         Traversal r = alongZ(0.0, kNoTriangle, 9.0, 0u, 1u);
         testPair(r, true);
-        EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(k, 5u));
-        r = alongZ(r.t, r.primitive, 9.0, 0u, 1u);
+        EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(0u, 5u + k));
+        r = alongZ(r.t, r.order, 9.0, 0u, 1u);
         testPair(r, true);
-        EXPECT_EQ(uvec2(r.triangle, r.primitive), uvec2(1u - k, 6u));
+        EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(1u, ~(6u - k)));
     }
+}
+
+// Six coincident triangles of both windings, met one after the other by a ray and by the reverse ray.
+TEST(AReverseRayMeetsCoincidentSurfacesInReverse) {
+    uint fronts = randomUint();
+    for (uint i = 0u; i < 6u; i++) putTriangle(i, 2.0, (i * 5u + 3u) % 6u, ((fronts >> i) & 1u) != 0u);
+    uint met[12];
+    for (uint way = 0u; way < 2u; way++) {
+        vec3 origin = vec3(0.0, 0.0, way == 0u ? 0.0 : 4.0);
+        float t = 0.0;
+        uint order = kNoTriangle;
+        for (uint i = 0u; i < 6u; i++) {
+            Traversal r = traversalStart(0u, origin, vec3(0.0, 0.0, way == 0u ? 1.0 : -1.0), t, order, 9.0, false);
+            r.nodesLeft = false;
+            r.pairMask = 63u;
+            while (r.pairMask != 0u) testPair(r, true);
+            met[6u * way + i] = r.triangle;
+            t = r.t;
+            order = r.order;
+        }
+    }
+    for (uint i = 0u; i < 6u; i++) EXPECT_EQ(met[i], met[11u - i]);
+    // Nothing is met twice.
+    uint all = 0u;
+    for (uint i = 0u; i < 6u; i++) all |= 1u << (met[i] / 2u);
+    EXPECT_EQ(all, 63u);
 }

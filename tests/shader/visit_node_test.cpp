@@ -26,7 +26,7 @@ struct AfterVisit {
 }  // namespace duolux::test
 
 DUOLUX_GLSL_TYPE(duolux::test::Visit, "Visit",
-                 "vec3 origin; float tMin; vec3 direction; float tMax; uint afterPrimitive; uint groupBase; "
+                 "vec3 origin; float tMin; vec3 direction; float tMax; uint afterOrder; uint groupBase; "
                  "uint groupMask;");
 DUOLUX_GLSL_TYPE(
     duolux::test::AfterVisit, "AfterVisit",
@@ -147,7 +147,7 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
         rest.push_back(mask & ~(1u << (24 + best)));
     }
     const std::vector<AfterVisit> after = traversalOf(tree).evaluate<AfterVisit>(R"(
-        Traversal r = traversalStart(77u, x0.origin, x0.direction, x0.tMin, x0.afterPrimitive, x0.tMax, false);
+        Traversal r = traversalStart(77u, x0.origin, x0.direction, x0.tMin, x0.afterOrder, x0.tMax, false);
         r.groupBase = x0.groupBase;
         r.groupMask = x0.groupMask;
         visitNode(r);

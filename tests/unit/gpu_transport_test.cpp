@@ -59,6 +59,20 @@ TEST(Transport, LightOnItsWayToTheCameraHasBothComponents) {
     EXPECT_EQ(analyseTransport(sceneWith(glowing)).cameraTransmittance, shared::kTransmittanceGeneral);
 }
 
+// The matrix passes the invisible component unchanged only if it does so in every channel.
+TEST(Transport, IdentityIsThatOfAllChannels) {
+    for (int channel = 0; channel < 3; ++channel) {
+        for (const float other : {0.5f, 2.0f}) {
+            Scene scene = sceneWith(*presetReflectance("local"));
+            scene.materials[1].reflectance = scene.reflectance;
+            scene.materials[1].reflectance->transparent.m00[channel] = other;
+            EXPECT_EQ(analyseTransport(scene).transmittance, shared::kTransmittanceGeneral) << channel;
+            scene.reflectance.transparent.m00[channel] = other;
+            EXPECT_EQ(analyseTransport(scene).cameraTransmittance, shared::kTransmittanceGeneral) << channel;
+        }
+    }
+}
+
 TEST(Transport, OneOpaqueMaterialMakesShadows) {
     Scene scene = sceneWith(*presetReflectance("shadowless"));
     scene.materials[1].reflectance = presetReflectance("global");

@@ -35,7 +35,7 @@ glm::vec<sizeof...(Components), T> operator->*(const glm::vec<N, T>& v, Swizzle<
 /// What the kernels' texel buffers hold; the functions that fetch from them are the library's only way to a
 /// scene.
 struct Texels {
-    std::vector<glm::uvec4> nodes, pairs, normals, materials, lights;
+    std::vector<glm::uvec4> nodes, pairs, planes, normals, materials, lights;
 };
 inline Texels& texels() {
     static Texels instance;

@@ -1,0 +1,261 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/render/render.h"
+#include "tests/support/device.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/tunings.h"
+
+// Surfaces in the same place, and triangles that reach far: by both integrators, and as if they were a little
+// apart.
+
+namespace duolux::test {
+namespace {
+
+glm::dvec3 meanOf(const RenderOutput& output) {
+    const RadianceImage image = output.film.resolve();
+    glm::dvec3 sum(0.0);
+    for (const glm::vec3& pixel : image.visible)
+        sum += glm::dvec3(pixel);
+    return sum / static_cast<double>(image.visible.size());
+}
+
+double meanBy(Scene scene, Integrator integrator, std::uint32_t spp) {
+    scene.render.integrator = integrator;
+    scene.render.spp = spp;
+    return meanOf(render(device(), scene)).y;
+}
+
+Material absorbing() {
+    Material material;
+    material.diffuse = glm::vec3(0.0f);
+    return material;
+}
+
+class Coincident : public testing::Test {
+  protected:
+    Coincident() {
+        Scene& scene = builder_.scene;
+        scene.reflectance = preset("global");
+        scene.camera = {{0.02f, 0.03f, 3}, {0.02f, 0.03f, 0}, {0, 1, 0}, 10.0f};
+        scene.render.width = scene.render.height = 8;
+        scene.render.bounces = 0;
+    }
+    /// About the z axis; the front is above unless it is turned.
+    void pane(float halfWidth, float z, const Material& material, bool turned = false) {
+        const float a = halfWidth;
+        const std::uint32_t index = builder_.add(material);
+        if (turned) {
+            builder_.quad({-a, -a, z}, {-a, a, z}, {a, a, z}, {a, -a, z}, index);
+        } else {
+            builder_.quad({-a, -a, z}, {a, -a, z}, {a, a, z}, {-a, a, z}, index);
+        }
+    }
+    SceneBuilder builder_;
+};
+
+// Two filters whose matrices do not commute, of all windings, one a decal on the other or not: the order is
+// that of a small gap, in which the one that faces the camera, or the first of two that face alike, is in
+// front.
+TEST_F(Coincident, FiltersAreMetInOneOrderByBothIntegrators) {
+    const LightMatrix first{glm::vec3(0.5f), glm::vec3(0.0f), glm::vec3(0.8f), glm::vec3(0.1f)};
+    const LightMatrix second{glm::vec3(0.2f), glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.9f)};
+    for (const float width : {1.0f, 0.7f}) {
+        for (const bool firstTurned : {false, true}) {
+            for (const bool secondTurned : {false, true}) {
+                const bool firstInFront = firstTurned == secondTurned ? !firstTurned : !firstTurned;
+                const auto scene = [&](float gap) {
+                    builder_ = SceneBuilder{builder_.scene};
+                    builder_.scene.geometry = {};
+                    builder_.scene.materials.clear();
+                    Material lamp = absorbing();
+                    lamp.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
+                    pane(1.0f, 0.0f, lamp);
+                    pane(1.0f, 1.0f, filter("first", first), firstTurned);
+                    pane(width, firstInFront ? 1.0f - gap : 1.0f + gap, filter("second", second),
+                         secondTurned);
+                    return builder_.scene;
+                };
+                const double apart = meanBy(scene(0.01f), Integrator::kPath, 16);
+                const double path = meanBy(scene(0.0f), Integrator::kPath, 16);
+                const double light = meanBy(scene(0.0f), Integrator::kLight, 2048);
+                EXPECT_NEAR(path, apart, 1e-5) << width << firstTurned << secondTurned;
+                EXPECT_NEAR(light, apart, 0.05 * apart) << width << firstTurned << secondTurned;
+            }
+        }
+    }
+}
+
+/// A lamp above a floor, and what it gives the floor, or shows, as the camera looks.
+class Lamp : public Coincident {
+  protected:
+    Lamp() {
+        Scene& scene = builder_.scene;
+        scene.render.bounces = 1;
+        Material floor;
+        floor.diffuse = glm::vec3(0.5f);
+        builder_.quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, builder_.add(floor));
+        lookAtFloor();
+    }
+    void lookAtFloor() { builder_.scene.camera = {{0.3f, 0.5f, 0.2f}, {0.3f, 0.0f, 0.2f}, {0, 0, 1}, 20.0f}; }
+    void lookUp() { builder_.scene.camera = {{0.3f, 0.5f, 0.2f}, {0.3f, 1.0f, 0.2f}, {0, 0, 1}, 20.0f}; }
+    void plate(float halfWidth, float y, const Material& material, bool frontBelow) {
+        const float a = halfWidth;
+        const std::uint32_t index = builder_.add(material);
+        if (frontBelow) {
+            builder_.quad({-a, y, -a}, {a, y, -a}, {a, y, a}, {-a, y, a}, index);
+        } else {
+            builder_.quad({-a, y, -a}, {-a, y, a}, {a, y, a}, {a, y, -a}, index);
+        }
+    }
+    static Material lamp() {
+        Material material = absorbing();
+        material.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
+        return material;
+    }
+    /// Both integrators against the same with surfaces apart.
+    void expectAs(const Scene& apart) {
+        const Scene together = builder_.scene;
+        for (const bool up : {false, true}) {
+            builder_.scene = apart;
+            up ? lookUp() : lookAtFloor();
+            const double expected = meanBy(builder_.scene, Integrator::kPath, 512);
+            builder_.scene = together;
+            up ? lookUp() : lookAtFloor();
+            EXPECT_NEAR(meanBy(builder_.scene, Integrator::kPath, 512), expected, 0.01 * expected) << up;
+            // 4 standard errors.
+            EXPECT_NEAR(meanBy(builder_.scene, Integrator::kLight, 8192), expected, 0.08 * expected) << up;
+        }
+    }
+};
+
+TEST_F(Lamp, OfTwoFacesShinesBothWays) {
+    for (const bool downFirst : {false, true}) {
+        const SceneBuilder floor = builder_;
+        for (const bool first : {true, false})
+            plate(1.0f, first == downFirst ? 1.0f : 1.001f, lamp(), first == downFirst);
+        const Scene apart = builder_.scene;
+        builder_ = floor;
+        for (const bool first : {true, false})
+            plate(1.0f, 1.0f, lamp(), first == downFirst);
+        expectAs(apart);
+        builder_ = floor;
+    }
+}
+
+TEST_F(Lamp, InThePlaneOfACeilingShines) {
+    Material ceiling;
+    ceiling.diffuse = glm::vec3(0.3f);
+    const SceneBuilder floor = builder_;
+    plate(2.0f, 1.0f, ceiling, true);
+    plate(0.5f, 0.999f, lamp(), true);
+    const Scene apart = builder_.scene;
+    for (const bool lampFirst : {false, true}) {
+        for (const bool ceilingDown : {false, true}) {
+            // From below the ceiling is in front of a lamp only if it faces that way, and the lamp does not.
+            builder_ = floor;
+            if (lampFirst) plate(0.5f, 1.0f, lamp(), true);
+            plate(2.0f, 1.0f, ceiling, ceilingDown);
+            if (!lampFirst) plate(0.5f, 1.0f, lamp(), true);
+            expectAs(apart);
+        }
+    }
+    builder_ = floor;
+}
+
+// A surface that lets light through, before another that scatters it: the vertex is on the second of the two.
+TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
+    builder_.scene.reflectance = preset("one-bounce");
+    const SceneBuilder floor = builder_;
+    Material film = filter("film", matrix(0.5f, 0.0f, 0.0f, 0.5f));
+    const auto withFilm = [&](float height) {
+        builder_ = floor;
+        plate(2.0f, height, film, false);
+        plate(1.0f, 1.0f, lamp(), true);
+        return builder_.scene;
+    };
+    // The film faces up like the floor, and comes after it in the scene: it is behind the floor unless it is
+    // above.
+    const Scene above = withFilm(0.001f);
+    const double expected = meanBy(above, Integrator::kPath, 512);
+    builder_ = floor;
+    Scene together = floor.scene;
+    {
+        SceneBuilder filmFirst;
+        filmFirst.scene.reflectance = floor.scene.reflectance;
+        filmFirst.scene.camera = floor.scene.camera;
+        filmFirst.scene.render = floor.scene.render;
+        builder_ = filmFirst;
+        plate(2.0f, 0.0f, film, false);
+        Material floorMaterial;
+        floorMaterial.diffuse = glm::vec3(0.5f);
+        plate(2.0f, 0.0f, floorMaterial, false);
+        plate(1.0f, 1.0f, lamp(), true);
+        together = builder_.scene;
+    }
+    EXPECT_NEAR(meanBy(together, Integrator::kPath, 512), expected, 0.01 * expected);
+    EXPECT_NEAR(meanBy(together, Integrator::kLight, 2048), expected, 0.05 * expected);
+    // Twice through the film.
+    const double bare = [&] {
+        builder_ = floor;
+        plate(1.0f, 1.0f, lamp(), true);
+        return meanBy(builder_.scene, Integrator::kPath, 512);
+    }();
+    EXPECT_NEAR(expected, 0.25 * bare, 0.02 * bare);
+    builder_ = floor;
+}
+
+/// A plate a little above a ground of any size, and its shadow.
+Scene groundScene(float reach, bool tilted) {
+    SceneBuilder builder;
+    Material white, lamp = absorbing();
+    white.diffuse = glm::vec3(0.8f);
+    lamp.emission = {glm::vec3(100.0f), glm::vec3(0.0f), Sides::kFront};
+    const std::uint32_t w = builder.add(white), l = builder.add(lamp);
+    const float g = reach;
+    builder.quad({-g, 0, -g}, {-g, 0, g}, {g, 0, g}, {g, 0, -g}, w);
+    builder.quad({-.5f, .1f, -.5f}, {-.5f, .1f, .5f}, {.5f, .1f, .5f}, {.5f, .1f, -.5f}, w);
+    builder.quad({-.1f, 3, -.1f}, {.1f, 3, -.1f}, {.1f, 3, .1f}, {-.1f, 3, .1f}, l);
+    Scene& scene = builder.scene;
+    scene.reflectance = preset("one-bounce");
+    scene.camera = {{1.5f, 2.0f, 3.0f}, {0, 0, 0}, {0, 1, 0}, 30.0f};
+    scene.render.width = scene.render.height = 32;
+    scene.render.bounces = 1;
+    if (tilted) {
+        const glm::dmat3 turn(0.6, 0.8, 0.0, -0.64, 0.48, 0.6, 0.48, -0.36, 0.8);
+        for (glm::vec3& p : scene.geometry.positions)
+            p = glm::vec3(turn * glm::dvec3(p));
+        scene.camera.position = glm::vec3(turn * glm::dvec3(scene.camera.position));
+        scene.camera.up = glm::vec3(turn * glm::dvec3(scene.camera.up));
+    }
+    return scene;
+}
+
+TEST(LargeTriangles, AGroundOfAnySizeHasTheSamePicture) {
+    const double expected = meanBy(groundScene(8.0f, false), Integrator::kPath, 64);
+    for (const float reach : {8.0f, 3e3f, 1e5f}) {
+        for (const bool tilted : {false, true}) {
+            const Scene scene = groundScene(reach, tilted);
+            EXPECT_NEAR(meanBy(scene, Integrator::kPath, 64), expected, 0.01 * expected) << reach << tilted;
+            EXPECT_NEAR(meanBy(scene, Integrator::kLight, 256), expected, 0.04 * expected) << reach << tilted;
+        }
+    }
+}
+
+// Every layout and kernel has the same bits, with planes, too.
+TEST(LargeTriangles, AllLayoutsHaveTheSameBits) {
+    const Scene scene = groundScene(1e5f, true);
+    std::optional<Film> first;
+    for (const TuningChoice& tuning : allTunings(device().info())) {
+        if (tuning.layout == Layout::kRayQuery) continue;
+        RenderControl control;
+        control.tuning = tuning;
+        const RenderOutput output = render(device(), scene, control);
+        if (!first) first = output.film;
+        EXPECT_EQ(first->resolve().visible, output.film.resolve().visible) << nameOf(tuning);
+    }
+}
+
+}  // namespace
+}  // namespace duolux::test
