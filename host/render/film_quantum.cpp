@@ -41,7 +41,7 @@ float findQuantum(double brightest, const std::function<FirstLook(float)>& look)
     const double darker = std::min(shown.invisible, shown.visible) * quantum / samples;
     if (!(brighter > 0.0)) return powerOfTwo(exponentOf(brightest) - 30);
     const int mean = exponentOf(darker > 0.0 ? std::max(darker, brighter * kDarkest) : brighter);
-    constexpr int kLargest = 58;  // the exponent of shared::kFilmLargest
+    constexpr int kLargest = 58;                                     // the exponent of shared::kFilmLargest
     const int holdsEmission = exponentOf(brightest) + 4 - kLargest;  // in all six channels together
     return powerOfTwo(std::max(mean - 30, std::min(holdsEmission, mean - 20)));
 }

@@ -93,10 +93,9 @@ class Gatherer {
         const std::uint32_t wanted = std::min(PathKernel::kMaxSamples, kSamples / kernel.lookSlots());
         return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
             FirstLook sum;
-            WorkRange range{kernel.firstLookSlot(), 0, 0, wanted};
-            while (range.firstSlot < end) {
+            WorkRange range{kernel.firstLookSlot(), 0, 0, 1};
+            while (range.firstSample < wanted) {
                 range.slots = std::min(kernel.maxSlots(), end - range.firstSlot);
-                range.samples = std::min(wanted, kernel.laneSamples());
                 kernel.submit(0, range, quantum);
                 const PathKernel::Results results = kernel.wait(0);
                 context_.received(results.deviceSeconds, range.size());
@@ -110,6 +109,9 @@ class Gatherer {
                 sum.samples += look.samples;
                 sum.clamped = sum.clamped || look.clamped;
                 range.firstSlot += range.slots;
+                if (range.firstSlot < end) continue;
+                range.firstSlot = kernel.firstLookSlot();
+                ++range.firstSample;
             }
             return sum;
         });

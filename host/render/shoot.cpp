@@ -85,7 +85,7 @@ class Shooter {
             FirstLook look;
             while (look.samples < kPaths) {
                 const auto count = static_cast<std::uint32_t>(
-                    std::min<std::uint64_t>(kernel.maxPaths(), kPaths - look.samples));
+                    std::min<std::uint64_t>({kernel.maxPaths(), kFirstPaths, kPaths - look.samples}));
                 kernel.submit(0, {look.samples, count}, quantum);
                 const LightKernel::Results results = kernel.wait(0);
                 context_.received(results.deviceSeconds, count);

@@ -32,19 +32,6 @@ float sumOfThree(float a, float b, float c) {
     return sum;
 }
 
-// The error of a product that was rounded to `product`, exactly (Veltkamp's splitting, Dekker, "A Floating-Point Technique
-// for Extending the Available Precision", Numerische Mathematik 18, 1971).
-float productError(float a, float b, float product) {
-    precise float wideA = 4097.0 * a;
-    precise float highA = wideA - (wideA - a);
-    precise float lowA = a - highA;
-    precise float wideB = 4097.0 * b;
-    precise float highB = wideB - (wideB - b);
-    precise float lowB = b - highB;
-    precise float error = ((highA * highB - product) + highA * lowB + lowA * highB) + lowA * lowB;
-    return error;
-}
-
 // Twice the signed area of the triangle that the edge from p to q makes with the ray, in the plane across it; that of the
 // edge from q to p is the exact negative.
 float edgeFunction(vec2 p, vec2 q) {
@@ -52,13 +39,10 @@ float edgeFunction(vec2 p, vec2 q) {
     return area;
 }
 
-// The side of the edge from p to q on which the ray passes, as the sign of the result, where edgeFunction is 0: by the
-// exact area, and on the edge itself as if the ray were moved a little along U and much less along V (simulation of
-// simplicity: Edelsbrunner and Muecke, 1990). So a ray passes one of the triangles at a shared edge or vertex.
-float sideOfEdge(vec2 p, vec2 q) {
-    precise float first = q.x * p.y;
-    precise float second = q.y * p.x;
-    precise float area = productError(q.x, p.y, first) - productError(q.y, p.x, second);
+// The side of the edge from p to q on which the ray passes, as the sign of the result. Where the area is 0 it is as if the
+// ray were moved a little along U and much less along V (simulation of simplicity: Edelsbrunner and Muecke, 1990), so that
+// a ray passes one of the triangles at a shared edge or vertex.
+float sideOfEdge(vec2 p, vec2 q, float area) {
     float moved = q.y != p.y ? q.y - p.y : p.x - q.x;
     return area != 0.0 ? area : moved;
 }
@@ -92,11 +76,10 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     precise float tc = weights.z * dot(c, direction);
     precise float t = sumOfThree(ta, tb, tc);
     bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
-    // A loop, because only these skip what no lane needs.
-    for (int i = once && inside && (u == 0.0 || v == 0.0 || w == 0.0) ? 0 : 1; i < 1; i++) {
-        float sideU = u != 0.0 ? u : sideOfEdge(vec2(bx, by), vec2(cx, cy));
-        float sideV = v != 0.0 ? v : sideOfEdge(vec2(cx, cy), vec2(ax, ay));
-        float sideW = w != 0.0 ? w : sideOfEdge(vec2(ax, ay), vec2(bx, by));
+    if (once) {
+        float sideU = sideOfEdge(vec2(bx, by), vec2(cx, cy), u);
+        float sideV = sideOfEdge(vec2(cx, cy), vec2(ax, ay), v);
+        float sideW = sideOfEdge(vec2(ax, ay), vec2(bx, by), w);
         inside = min(sideU, min(sideV, sideW)) > 0.0 || max(sideU, max(sideV, sideW)) < 0.0;
     }
     return TriangleHit(inside && det != 0.0, det > 0.0, t, vec2(weights.y, weights.z));
