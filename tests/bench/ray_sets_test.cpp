@@ -56,7 +56,11 @@ std::size_t differences(const RaySet& set, const std::vector<shared::TraceHit>& 
             same = off < 1e-4 * (size + found.front().distance);
         }
         if (same && hit && set.mode == shared::kTraceAllCrossings) {
-            same = static_cast<std::size_t>(hits[i].normal.x) == found.size();
+            // Both triangles at a shared edge are one surface.
+            std::size_t surfaces = 1;
+            for (std::size_t k = 1; k < found.size(); ++k)
+                surfaces += found[k].distance - found[k - 1].distance > 1e-7 * size ? 1 : 0;
+            same = static_cast<std::size_t>(hits[i].normal.x) == surfaces;
         }
         count += same ? 0 : 1;
     }

@@ -47,8 +47,6 @@ std::vector<MalformedScene> malformedJsons() {
         keys("DuplicateKey", R"("film": {"width": 1, "width": 2})", {"scene.json: film.width: ", "twice"}),
         camera("UnknownCameraKey", view + R"(, "vfow": 40)",
                {"scene.json: camera.vfow: ", "did you mean \"vfov\"?"}),
-        camera("TargetMissing", R"("position": [0, 0, 5])",
-               {"scene.json: camera: ", "\"target\" is missing"}),
         camera("TargetAtPosition", R"("position": [1, 2, 3], "target": [1, 2, 3])",
                {"scene.json: camera: ", "the same"}),
         camera("UpAlongView", view + R"(, "up": [0, 0, -2])",
