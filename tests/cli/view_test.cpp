@@ -1,0 +1,148 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/cli/run_duolux.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kMtl =
+    "newmtl white\nKd .8 .8 .8\nnewmtl lamp\nKd .8 .8 .8\nKe 20 20 20\nnewmtl dim\nKe 1e-4 1e-4 1e-4\n";
+/// A floor of 4 x 4, its front up.
+constexpr const char* kFloor = "usemtl white\nv -2 0 -2\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nf -4 -3 -2 -1\n";
+/// Above it, its front down or up.
+constexpr const char* kDown = "v -.5 1 -.5\nv .5 1 -.5\nv .5 1 .5\nv -.5 1 .5\nf -4 -3 -2 -1\n";
+constexpr const char* kUp = "v -.5 1 -.5\nv .5 1 -.5\nv .5 1 .5\nv -.5 1 .5\nf -1 -2 -3 -4\n";
+
+/// The sides of a box, their fronts inside.
+std::string box(const std::string& x, const std::string& low, const std::string& high) {
+    std::string text = "usemtl white\n";
+    for (const std::string& y : {low, high}) {
+        for (const char* corner : {"-# Y -#", "# Y -#", "# Y #", "-# Y #"}) {
+            text += "v ";
+            for (const char* c = corner; *c != '\0'; ++c)
+                text += *c == '#' ? x : (*c == 'Y' ? y : std::string(1, *c));
+            text += "\n";
+        }
+    }
+    return text +
+           "f -8 -5 -6 -7\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -6 -5 -1 -2\nf -7 -6 -2 -3\nf -5 -8 -4 -1\n";
+}
+
+class ViewCommand : public testing::Test {
+  protected:
+    ViewCommand() { std::ofstream(folder_.path() / "m.mtl") << kMtl; }
+
+    ProgramResult render(const std::string& obj, std::vector<std::string> options) {
+        std::ofstream(folder_.path() / "m.obj") << "mtllib m.mtl\n" << obj;
+        std::vector<std::string> arguments{"render", "m.obj", "--quiet", "--device", "cpu",    "--size",
+                                           "16x16",  "--spp", "4",       "-o",       "out.png"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return runDuolux(folder_.path(), std::move(arguments));
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(ViewCommand, PicturesThatAreFineBringNoWarning) {
+    const std::string lit = std::string(kFloor) + "usemtl lamp\n" + kDown;
+    EXPECT_EQ(render(lit, {}).err, "");
+    EXPECT_EQ(render(box("2", "0", "2") + "usemtl lamp\n" + kDown, {}).err, "");
+}
+
+TEST_F(ViewCommand, DarkPicturesNameTheirCause) {
+    const std::string lit = std::string(kFloor) + "usemtl lamp\n" + kDown;
+    const std::string room = box("2", "0", "2") + "usemtl lamp\n" + kDown;
+    EXPECT_THAT(render(lit, {"--camera-position", "0,1,9", "--look-at", "0,1,20"}).err,
+                HasSubstr("less than 1 % of the picture is lit: the camera looks past the scene"));
+    EXPECT_THAT(render(room, {"--camera-position", "0,1,9", "--look-at", "0,1,0"}).err,
+                testing::AllOf(HasSubstr("behind a wall or inside of an object"),
+                               HasSubstr("material \"white\""), HasSubstr("--camera-position ")));
+    EXPECT_THAT(render(std::string(kFloor) + "usemtl lamp\n" + kUp,
+                       {"--no-lamp", "--camera-position", "3,0.5,0", "--look-at", "1.5,0,0", "--vfov", "20"})
+                    .err,
+                testing::AllOf(HasSubstr("material \"lamp\") face away"), HasSubstr("counter-clockwise")));
+    EXPECT_THAT(render(kFloor + box("0.9", "0.8", "1.2") + "usemtl lamp\n" + kDown,
+                       {"--no-lamp", "--camera-position", "0,9,1", "--look-at", "1.6,0,0", "--vfov", "2"})
+                    .err,
+                HasSubstr("no light reaches what the camera sees"));
+    EXPECT_THAT(render(std::string(kFloor) + "usemtl dim\n" + kDown, {"--no-lamp"}).err,
+                HasSubstr("very dark; try --exposure 1"));
+    EXPECT_THAT(render(lit, {"--preset", "global", "--bounces", "0", "--camera-position", "0,9,1",
+                             "--look-at", "1.6,0,0", "--vfov", "2"})
+                    .err,
+                HasSubstr("try more --bounces"));
+    const ProgramResult dark = render(kFloor, {"--no-lamp"});
+    EXPECT_EQ(dark.err, "duolux: warning: nothing emits light: the picture will be black\n");
+}
+
+TEST_F(ViewCommand, AnEmitterThatIsNotVisibleIsBlackByDesign) {
+    std::ofstream(folder_.path() / "scene.json") << R"({"duolux": 1, "lights": [{"type": "rectangle",
+        "origin": [0, 0, 0], "edge1": [1, 0, 0], "edge2": [0, 1, 0], "emission": {"invisible": 1}}]})";
+    const ProgramResult result = runDuolux(folder_.path(), {"render", "scene.json", "--device", "cpu",
+                                                            "--size", "8x8", "--spp", "1", "-o", "a.png"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_THAT(result.err, HasSubstr("sees only emitters, and they emit no visible light"));
+}
+
+TEST_F(ViewCommand, InfoShowsTheCameraAsASceneFileGivesIt) {
+    std::ofstream(folder_.path() / "m.obj") << "mtllib m.mtl\n" << kFloor;
+    const ProgramResult text = runDuolux(folder_.path(), {"info", "m.obj", "--vfov", "25", "--up", "y"});
+    ASSERT_EQ(text.status, 0) << text.err;
+    const std::size_t begin = text.out.find('{');
+    ASSERT_NE(begin, std::string::npos) << text.out;
+    const std::string line = text.out.substr(begin, text.out.find('\n', begin) - begin);
+    const nlohmann::json camera = nlohmann::json::parse(line);
+    EXPECT_EQ(camera["vfov"], 25);
+    std::ofstream(folder_.path() / "s.json")
+        << R"({"duolux": 1, "objects": [{"mesh": "m.obj"}], "camera": )" << line << "}";
+    const ProgramResult pasted = runDuolux(folder_.path(), {"info", "s.json", "--json"});
+    ASSERT_EQ(pasted.status, 0) << pasted.err;
+    const nlohmann::json info = nlohmann::json::parse(pasted.out);
+    EXPECT_EQ(info["camera"], camera);
+    EXPECT_EQ(info["version"], 1);
+    for (const char* key :
+         {"scene", "hash", "triangles", "vertices", "smooth_triangles", "bounds", "geometry_bytes", "film",
+          "render", "display", "reflectance", "lights", "materials", "energy", "warnings"}) {
+        EXPECT_TRUE(info.contains(key)) << key;
+    }
+    EXPECT_EQ(info["materials"][0]["name"], "white");
+    EXPECT_EQ(info["materials"][0]["diffuse"][0], 0.8);
+}
+
+TEST_F(ViewCommand, DevicesCanBeReadByScripts) {
+    const ProgramResult result = runDuolux(folder_.path(), {"devices", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json devices = nlohmann::json::parse(result.out);
+    EXPECT_EQ(devices["version"], 1);
+    const nlohmann::json& first = devices["devices"][0];
+    for (const char* key :
+         {"index", "chosen", "name", "driver", "kind", "vulkan", "subgroup_size", "memory_bytes",
+          "storage_buffer_bytes", "texel_buffer_texels", "most_triangle_pairs", "ray_queries", "lacks"}) {
+        EXPECT_TRUE(first.contains(key)) << key;
+    }
+}
+
+TEST_F(ViewCommand, ShadowlessHasFewBouncesUnlessItIsSaidHowMany) {
+    const std::string room = box("2", "0", "2") + "usemtl lamp\n" + kDown;
+    EXPECT_THAT(render(room, {"--preset", "shadowless", "--report", "r.json"}).err,
+                HasSubstr("the picture is that of 4"));
+    EXPECT_EQ(nlohmann::json::parse(contentsOf(folder_.path() / "r.json"))["settings"]["bounces"], 4);
+    EXPECT_THAT(render(room, {"--preset", "shadowless", "--bounces", "6"}).err,
+                testing::AllOf(Not(HasSubstr("that of 4")), HasSubstr("the limit of 6 bounces")));
+    // A checkpoint of the default goes on by default.
+    ASSERT_EQ(render(room, {"--blend", "1,1", "--checkpoint", "c.part"}).status, 0);
+    EXPECT_EQ(render(room, {"--blend", "1,1", "--resume", "c.part"}).status, 0);
+    EXPECT_EQ(render(room, {"--blend", "1,1", "--resume", "c.part", "--bounces", "16"}).status, 3);
+}
+
+}  // namespace
+}  // namespace duolux::test
