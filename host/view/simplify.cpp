@@ -9,7 +9,8 @@ namespace duolux {
 
 namespace {
 
-constexpr std::size_t kMostExact = 200'000;    // triangles
+constexpr std::size_t kMostExact = 20'000;  // triangles
+constexpr std::size_t kMostClustered = 150'000;
 constexpr std::size_t kMostEmitters = 50'000;  // that are kept as they are
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
@@ -146,7 +147,7 @@ std::vector<Surface::Triangle> simplifiedTriangles(const Surface& surface, std::
     std::vector<Surface::Triangle> triangles;
     for (const std::uint32_t cellsAcross : {128u, 64u, 32u}) {
         triangles = simplifier.clustered(cellsAcross);
-        if (triangles.size() <= 2 * kMostExact) break;
+        if (triangles.size() <= kMostClustered) break;
     }
     // Triangles that are all smaller than a cell, far apart, leave nothing: a few of them stand for all.
     if (triangles.empty()) {
