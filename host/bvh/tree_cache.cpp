@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -15,6 +16,28 @@
 namespace duolux {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kExtension = ".tree";
+constexpr std::string_view kTemporary = ".XXXXXX";  // after it, until a file is complete
+
+bool isOwnName(std::string_view name) {
+    constexpr std::size_t kDigits = 32;
+    const std::size_t size = kDigits + kExtension.size();
+    return (name.size() == size || name.size() == size + kTemporary.size()) &&
+           name.find_first_not_of("0123456789abcdef") == kDigits &&
+           name.substr(kDigits, kExtension.size()) == kExtension;
+}
+
+/// Nobody else can put a tree there, or see one.
+bool isOwnFolder(const fs::path& folder) {
+    struct stat status {};
+    return ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
+           (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+}  // namespace
 
 std::optional<TreeCache> TreeCache::ofUser() {
     const auto variable = [](const char* name) {
@@ -32,8 +55,10 @@ std::optional<TreeCache> TreeCache::ofUser() {
 
 WideBvh TreeCache::tree(const Geometry& geometry, std::span<const std::uint32_t> triangles) const {
     const TreeKey key = treeKey(geometry, triangles);
-    const fs::path path = folder_ / fmt::format("{:016x}{:016x}.tree", key[1], key[0]);
-    if (std::optional<WideBvh> kept = readTree(path, key, geometry, triangles)) {
+    const fs::path path = folder_ / fmt::format("{:016x}{:016x}{}", key[1], key[0], kExtension);
+    std::optional<WideBvh> kept;
+    if (isOwnFolder(folder_)) kept = readTree(path, key, geometry, triangles);
+    if (kept) {
         std::error_code ignored;
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
         return std::move(*kept);
@@ -48,7 +73,8 @@ void TreeCache::keep(const fs::path& path, const WideBvh& tree, const TreeKey& k
     std::error_code ignored;
     fs::create_directories(folder_.parent_path(), ignored);
     ::mkdir(folder_.c_str(), 0700);
-    std::string temporary = (folder_ / "new-XXXXXX").string();
+    if (!isOwnFolder(folder_)) return;
+    std::string temporary = path.string().append(kTemporary);
     const int file = ::mkstemp(temporary.data());
     if (file < 0) return;
     // Not waited for until it is on the disk: what a power failure leaves of it is built again.
@@ -71,10 +97,11 @@ void TreeCache::makeRoom() const {
     // Others may delete files meanwhile.
     std::error_code error;
     for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
+        if (!isOwnName(entry->path().filename().string()) || !isTreeFile(entry->path())) continue;
         std::error_code gone;
-        const std::uint64_t bytes = entry->is_regular_file(gone) ? entry->file_size(gone) : 0;
+        const std::uint64_t bytes = entry->file_size(gone);
         const fs::file_time_type used = entry->last_write_time(gone);
-        if (gone || bytes == 0) continue;
+        if (gone) continue;
         files.push_back({used, bytes, entry->path()});
         total += bytes;
     }

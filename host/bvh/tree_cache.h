@@ -10,15 +10,16 @@
 namespace duolux {
 
 /// Keeps built trees on disk, each in a file named by its content. Never fails: without the file, it builds.
-/// Processes may share a folder.
+/// Processes may share a folder. Files of other names, or that begin otherwise, are never touched; a folder
+/// that another user owns, or may write to, is not used.
 class TreeCache {
   public:
     /// Trees of fewer triangles are built about as fast as they are read.
     static constexpr std::size_t kFewestTriangles = 1u << 16;
     static constexpr std::uint64_t kMostBytes = 1ull << 30;
 
-    /// `folder` need not exist; nothing else should be kept there. `mostBytes`: of all files; beyond that
-    /// those not used for longest are deleted.
+    /// `folder` need not exist. `mostBytes`: of all trees; beyond that those not used for longest are
+    /// deleted.
     explicit TreeCache(std::filesystem::path folder, std::uint64_t mostBytes = kMostBytes)
         : folder_(std::move(folder)), mostBytes_(mostBytes) {}
 

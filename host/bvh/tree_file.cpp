@@ -28,7 +28,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == 72 && std::is_trivially_copyable_v<Header>);
 
-constexpr char kMagic[8] = {'D', 'u', 'o', 'l', 'u', 'x', 'T', '2'};
+constexpr char kMagic[8] = {'D', 'u', 'o', 'l', 'u', 'x', 'T', '2'};  // the last: its version
 
 /// XXH3 of 128 bits (Collet 2020): as fast as memory.
 class Hash {
@@ -138,9 +138,21 @@ bool isTree(const WideBvh& tree) {
 
 /// A file that is closed at the end of its scope.
 struct OpenFile {
-    int descriptor;
+    int descriptor = -1;
+
+    /// Opens a regular file for reading. What is none must not keep this waiting.
+    explicit OpenFile(const std::filesystem::path& path)
+        : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW)) {}
     ~OpenFile() {
         if (descriptor >= 0) ::close(descriptor);
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    struct stat status() const {
+        struct stat result {};
+        static_cast<void>(::fstat(descriptor, &result));
+        return result;
     }
 };
 
@@ -170,12 +182,18 @@ bool writeTree(int file, const WideBvh& tree, const TreeKey& key) {
            writeAll(file, std::span<const TrianglePair>(tree.pairs));
 }
 
+bool isTreeFile(const std::filesystem::path& path) {
+    const OpenFile file(path);
+    char magic[sizeof(kMagic)];
+    return S_ISREG(file.status().st_mode) && readAll(file.descriptor, std::span<char>(magic)) &&
+           std::memcmp(magic, kMagic, sizeof(kMagic) - 1) == 0;
+}
+
 std::optional<WideBvh> readTree(const std::filesystem::path& path, const TreeKey& key,
                                 const Geometry& geometry, std::span<const std::uint32_t> triangles) {
-    // What is no file must not keep this waiting.
-    const OpenFile file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-    struct stat status {};
-    if (file.descriptor < 0 || ::fstat(file.descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return {};
+    const OpenFile file(path);
+    const struct stat status = file.status();
+    if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid()) return {};
     Header header{};
     if (!readAll(file.descriptor, std::span<Header>(&header, 1))) return {};
     if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0 || header.key != key) return {};

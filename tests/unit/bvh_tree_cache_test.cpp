@@ -287,6 +287,52 @@ TEST_F(TreeCacheTest, DeletesWhatWasNotUsedForLongest) {
     EXPECT_TRUE(kept(3));
 }
 
+TEST_F(TreeCacheTest, DeletesNoFilesOfTheUser) {
+    fs::create_directories(cache_);
+    fs::permissions(cache_, fs::perms::owner_all);
+    const std::string name(32, '0');
+    get();
+    const std::string tree = readFile(files().at(0));
+    const std::map<std::string, std::string> others{
+        {"thesis.txt", "text"},           {name + ".tree", "of the right name"}, {name + ".exr", tree},
+        {name.substr(1) + ".tree", tree}, {name + ".tree.1234567", tree},        {"new-XXXXXX", tree}};
+    for (const auto& [file, bytes] : others)
+        writeFile(cache_ / file, bytes);
+    fs::create_symlink("thesis.txt", cache_ / (std::string(32, '1') + ".tree"));
+    writeFile(cache_ / (name + ".tree.abcdef"), tree);  // left by a process that was killed
+    const auto past = fs::file_time_type::clock::now() - std::chrono::hours(1000);
+    for (const fs::path& file : files()) {
+        if (!fs::is_symlink(file)) fs::last_write_time(file, past);
+    }
+    geometry_.positions[0].x += 1.0f;
+    const WideBvh built = buildWideBvh(geometry_, triangles_);
+    expectSame(get(treeFileBytes(built)), built);
+    for (const auto& [file, bytes] : others)
+        EXPECT_EQ(readFile(cache_ / file), bytes) << file;
+    EXPECT_EQ(files().size(), others.size() + 2) << "the link and the new tree";
+}
+
+TEST_F(TreeCacheTest, DoesWithoutAFolderThatOthersMayChange) {
+    get();
+    WideBvh other = built_;
+    other.nodes[0].upper[0][0] ^= 1;
+    keepInstead(other, files()[0]);
+    expectSame(get(), other);
+    for (const fs::perms writer : {fs::perms::group_write, fs::perms::others_write}) {
+        fs::permissions(cache_, fs::perms::owner_all | writer);
+        expectSame(get(), built_);
+    }
+    fs::permissions(cache_, fs::perms::owner_all);
+    if (::geteuid() != 0) return;
+    constexpr uid_t kNobody = 65534;
+    ASSERT_EQ(::chown(cache_.c_str(), kNobody, kNobody), 0);
+    expectSame(get(), built_);
+    ASSERT_EQ(::chown(cache_.c_str(), 0, 0), 0);
+    expectSame(get(), other);
+    ASSERT_EQ(::chown(files()[0].c_str(), kNobody, kNobody), 0);
+    expectSame(get(), built_);
+}
+
 TEST_F(TreeCacheTest, KeepsNothingLargerThanAllMayBe) {
     expectSame(get(treeFileBytes(built_) - 1), built_);
     EXPECT_FALSE(fs::exists(cache_));
