@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/console.h"
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
+#include "host/app/outputs.h"
 #include "host/app/tuning_options.h"
 #include "host/base/error.h"
 #include "host/base/temporary_folder.h"
@@ -48,7 +51,9 @@ void bench(const BenchOptions& options) {
     checkBenchScenes(options.scenes);
     std::vector<std::string> inputs = options.scenes;
     inputs.push_back(options.baseline);
-    if (!options.json.empty() && options.json != "-") checkOutputs({{"--json", options.json, false}}, inputs);
+    std::vector<OutputFile> outputs;
+    if (!options.json.empty() && options.json != "-") outputs.push_back({"--json", options.json, false});
+    checkOutputs(outputs, inputs);
     Baseline baseline;
     const std::map<std::string, double> settings{{"width", size.x},
                                                  {"height", size.y},
@@ -73,9 +78,10 @@ void bench(const BenchOptions& options) {
                                {size.x, size.y, options.spp, options.bounces, options.tuning.choice(),
                                 "/proc/self/exe", options.only},
                                folder);
+        checkNotRead(outputs, suite.files());
         tunings[name] = suite.tuning();
         const auto onRun = [&](const std::string& what) {
-            if (!options.quiet) fmt::print(stderr, "{}\n", what);
+            if (!options.quiet) say(what);
         };
         const std::vector<BenchResult> measured = runBenchmarks(suite.benchmarks(), options.repeat, onRun);
         results.insert(results.end(), measured.begin(), measured.end());
@@ -90,18 +96,27 @@ void bench(const BenchOptions& options) {
             fmt::print("{}: {} layout, {} kernel\n", scene, nameOf(tuning.layout), nameOf(tuning.kernel));
         fmt::print("{}", benchTable(results));
     }
+    WriteAll write;
     if (!options.json.empty()) {
-        writeReport(options.json, benchJson(results, device.info(), settings, tunings));
+        const std::string json = benchJson(results, device.info(), settings, tunings);
+        write(options.json, [&](const std::filesystem::path& path) { writeReport(path, json); });
     }
-    if (options.baseline.empty()) return;
+    if (options.baseline.empty()) return write.finish();
     const BaselineComparison comparison = compareWithBaseline(results, baseline, options.threshold);
-    fmt::print(table ? stdout : stderr, "\n{}", comparison.table);
+    if (table) {
+        fmt::print("\n{}", comparison.table);
+    } else {
+        std::istringstream lines(comparison.table);
+        for (std::string line; std::getline(lines, line);)
+            say(line);
+    }
     if (baseline.device != device.info().name || baseline.driver != device.info().driver ||
         baseline.host != hostProcessor()) {
         warn(fmt::format("{} was measured on {}, {}, {}; this is {}, {}, {}", options.baseline,
                          baseline.device, baseline.driver, baseline.host, device.info().name,
                          device.info().driver, hostProcessor()));
     }
+    write.finish();
     if (comparison.compared == 0)
         throw UsageError(fmt::format("{}: has none of these benchmarks", options.baseline));
     if (!comparison.regressions.empty()) {
@@ -127,7 +142,9 @@ void addBenchCommand(CLI::App& app) {
                      fmt::format("Only benchmarks whose names contain this text; may be repeated. Names are "
                                  "SCENE/ and one of {}",
                                  kBenchmarkNames))
-        ->allow_extra_args(false);
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->take_all();
     addDeviceOption(*command, options->device);
     addThreadsOption(*command);
     addTuningOptions(*command, options->tuning);

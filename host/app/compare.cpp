@@ -14,6 +14,7 @@
 #include "host/app/commands.h"
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
+#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/compare/heat_map.h"
@@ -110,7 +111,7 @@ void printJson(const Arguments& arguments, const Comparison& c) {
         json[std::string(name)] =
             std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
     }
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void checkLimits(const std::vector<Limit>& limits, const Arguments& arguments, const Comparison& c) {
@@ -140,18 +141,21 @@ void run(const Arguments& arguments) {
     options.transfer = arguments.transfer == "linear" ? Transfer::kLinear : Transfer::kSrgb;
     if (!arguments.mask.empty()) options.mask = readMask(arguments, image);
     const Comparison comparison = compare(image, reference, options);
+    WriteAll write;
     if (!arguments.heatMap.empty()) {
         std::vector<float> eps = epsMap(image, reference, options);
         for (std::size_t i = 0; i < eps.size(); ++i) {
             if (!options.mask.empty() && !options.mask[i]) eps[i] = 0.0f;
         }
-        writeImage(arguments.heatMap, heatMap(eps, image.width, image.height, arguments.heatMapRange), {});
+        const RadianceImage map = heatMap(eps, image.width, image.height, arguments.heatMapRange);
+        write(arguments.heatMap, [&](const std::filesystem::path& path) { writeImage(path, map, {}); });
     }
     if (arguments.json) {
         printJson(arguments, comparison);
     } else {
         print(comparison);
     }
+    write.finish();
     checkLimits(limits, arguments, comparison);
 }
 
@@ -179,7 +183,9 @@ void addCompareCommand(CLI::App& app) {
                      "Exit with status 1 if a metric (its name in the JSON; its size if it has a sign) "
                      "exceeds this; may be "
                      "given several times")
+        ->expected(1)
         ->allow_extra_args(false)
+        ->take_all()
         ->type_name("METRIC=VALUE");
     command
         ->add_option("--exposure", arguments->exposure,

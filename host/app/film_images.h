@@ -1,11 +1,9 @@
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
+#include "host/app/outputs.h"
 #include "host/film/image.h"
 #include "host/render/checkpoint.h"
 
@@ -15,21 +13,7 @@ namespace duolux {
 /// rendered.
 ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float exposure);
 
-/// Writes every file though some cannot be written, for whatever reason: warns of those, but for the first,
-/// which rethrow() tells in the end.
-class WriteAll {
-  public:
-    /// `step` writes `file`.
-    void operator()(const std::string& file, const std::function<void()>& step);
-    bool failed() const { return failure_.has_value(); }
-    void warnOfFirst() const;  ///< in place of rethrow(), where something else is to be thrown
-    void rethrow() const;
-
-  private:
-    std::optional<Error> failure_;
-};
-
-/// A step for each file.
+/// Writes an image to each file.
 void writeImages(WriteAll& write, const std::vector<std::string>& files, const ImageRows& rows,
                  const ImageOptions& options);
 

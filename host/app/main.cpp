@@ -2,14 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 #include "host/app/commands.h"
+#include "host/app/console.h"
 #include "host/app/options.h"
+#include "host/app/signals.h"
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/base/version.h"
@@ -17,9 +19,8 @@
 
 namespace {
 
-int report(const char* line, duolux::ExitStatus status) {
-    std::fflush(stdout);  // in order, where both go to one place
-    fmt::print(stderr, "duolux: {}\n", line);
+int report(std::string_view line, duolux::ExitStatus status) {
+    duolux::say(fmt::format("duolux: {}", line));
     return static_cast<int>(status);
 }
 
@@ -51,6 +52,8 @@ int run(int argc, char** argv) {
         "takes "
         "more than 1 GiB; DUOLUX_NO_CACHE=1 in the environment keeps and reads none.");
     app.require_subcommand(1);
+    // Scripts append to default options: the last one counts.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.get_formatter()->column_width(36);
     app.get_formatter()->label("SUBCOMMAND", "COMMAND");
     app.get_formatter()->label("Subcommands", "Commands");
@@ -69,25 +72,26 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& e) {
         return app.exit(e);  // --help, --version
     } catch (const CLI::ParseError& e) {
-        return report(duolux::describeParseError(app, e).c_str(), duolux::ExitStatus::kUsage);
+        return report(duolux::describeParseError(app, e), duolux::ExitStatus::kUsage);
     }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    duolux::openStandardStreams();
+    duolux::handleSignals();
     try {
         const int status = run(argc, argv);
-        errno = 0;
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            throw duolux::MachineError(
-                fmt::format("standard output: cannot write: {}", std::strerror(errno)));
-        }
+        duolux::printResult();
         return status;
     } catch (const duolux::Error& e) {
         return report(e.what(), e.status());
     } catch (const std::bad_alloc&) {
-        return report(("out of memory" + duolux::addressSpaceHint()).c_str(),
+        return report("out of memory" + duolux::addressSpaceHint(), duolux::ExitStatus::kMachineFailed);
+    } catch (const std::system_error& e) {
+        if (std::ferror(stdout) == 0) return report(e.what(), duolux::ExitStatus::kMachineFailed);
+        return report("standard output: cannot write: " + e.code().message(),
                       duolux::ExitStatus::kMachineFailed);
     } catch (const std::exception& e) {
         return report(e.what(), duolux::ExitStatus::kMachineFailed);

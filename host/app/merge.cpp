@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/console.h"
 #include "host/app/film_images.h"
 #include "host/app/options.h"
+#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/render/checkpoint.h"
 
@@ -74,7 +76,7 @@ void runMerge(const MergeOptions& options) {
     WriteAll write;
     writeImages(write, options.outputs, sum->state.film.rows(),
                 filmImageOptions(sum->origin, sum->state.film, options.exposure));
-    write.rethrow();
+    write.finish();
 }
 
 }  // namespace
@@ -88,6 +90,7 @@ void addMergeCommand(CLI::App& app) {
                      "Image to write: .exr, .png or .pfm; may be given several times")
         ->required()
         ->type_name("FILE")
+        ->expected(1)
         ->allow_extra_args(false)
         ->take_all();
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")

@@ -1,19 +1,13 @@
 #include "host/app/options.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <charconv>
-#include <filesystem>
 
 #include "host/base/error.h"
-#include "host/base/file.h"
-#include "host/film/image.h"
 #include "host/scene/nearest_name.h"
 
 namespace duolux {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -90,50 +84,6 @@ CLI::Validator notEmpty() {
             return text.empty() ? std::string("expected a value, not nothing") : std::string();
         },
         "");
-}
-
-void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs) {
-    const auto canonical = [](const std::string& file) {
-        std::error_code ignored;
-        return fs::weakly_canonical(fs::absolute(file), ignored);
-    };
-    std::vector<std::pair<fs::path, std::string>> taken;
-    for (const std::string& input : inputs) {
-        if (input.empty()) continue;
-        taken.emplace_back(canonical(input), "is read by this command");
-    }
-    for (const OutputFile& output : outputs) {
-        const auto fail = [&](const std::string& problem) {
-            throw UsageError(fmt::format("{} {}: {}", output.option, output.file, problem));
-        };
-        if (output.image && !isImagePath(output.file))
-            fail("unknown image format; expected .exr, .png or .pfm");
-        const fs::path path(output.file);
-        const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-        std::error_code unseen;  // what may not even be looked at is in a folder that may not be written to
-        if (!fs::is_directory(folder, unseen)) fail(fmt::format("there is no folder {}", folder.string()));
-        if (fs::is_directory(path, unseen)) fail("is a folder; expected a file name");
-        if (::access(folder.c_str(), W_OK | X_OK) != 0)
-            fail(fmt::format("nothing may be written to the folder {}", folder.string()));
-        const fs::path resolved = canonical(output.file);
-        for (const auto& [other, use] : taken) {
-            if (resolved == other) fail(fmt::format("{}; expected another file", use));
-        }
-        taken.emplace_back(resolved, "is written by " + output.option + ", too");
-    }
-}
-
-void warn(const std::string& text) {
-    std::fflush(stdout);  // in order, where both go to one place
-    fmt::print(stderr, "duolux: warning: {}\n", text);
-}
-
-void writeReport(const std::string& file, const std::string& text) {
-    if (file == "-") {
-        fmt::print("{}", text);
-    } else {
-        writeFile(file, text);
-    }
 }
 
 std::string describeParseError(const CLI::App& app, const CLI::ParseError& error) {

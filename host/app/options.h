@@ -31,23 +31,6 @@ CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);
 /// Refuses an empty text, such as a script's variable that was never set.
 CLI::Validator notEmpty();
 
-/// A file that a command will write, and the option that names it.
-struct OutputFile {
-    std::string option, file;
-    bool image = true;  ///< its extension must be an image's
-};
-
-/// Says before the work what would go wrong after it: formats that are not known, folders that are missing or
-/// cannot be written to, folders in the place of files, and files that would overwrite one another or one of
-/// `inputs`.
-void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs);
-
-/// One line on standard error.
-void warn(const std::string& text);
-
-/// Writes the text of --report: to a file, or to standard output for "-". Throws MachineError.
-void writeReport(const std::string& file, const std::string& text);
-
 /// The line for an error of the command line's syntax.
 std::string describeParseError(const CLI::App& app, const CLI::ParseError& error);
 

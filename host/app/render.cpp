@@ -11,15 +11,18 @@
 #include <optional>
 
 #include "host/app/commands.h"
+#include "host/app/console.h"
 #include "host/app/dark_picture.h"
 #include "host/app/film_images.h"
-#include "host/app/interrupt.h"
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
+#include "host/app/outputs.h"
 #include "host/app/report.h"
+#include "host/app/signals.h"
 #include "host/app/tuning_options.h"
 #include "host/app/view_options.h"
 #include "host/base/error.h"
+#include "host/base/file.h"
 #include "host/base/progress.h"
 #include "host/view/load.h"
 
@@ -122,7 +125,7 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl&
             "some pixels have light of samples that others do not: no checkpoint is written, an earlier one "
             "stays");
     }
-    if (statistics.stopped && !failed && !interrupted()) {
+    if (statistics.stopped && !failed && !stopStatus()) {
         const auto taken = static_cast<double>(output.film.totalSamples() + output.film.lightPaths());
         warnings.push_back(fmt::format("stopped at the time limit after {:.4g} of {} {} per pixel",
                                        taken / static_cast<double>(pixels),
@@ -225,13 +228,14 @@ void runRender(const RenderOptions& options) {
         files.push_back({"--report", options.report, false});
     if (!options.checkpoint.empty()) files.push_back({"--checkpoint", options.checkpoint, false});
     // A checkpoint may take the place of the one that the render goes on from.
-    checkOutputs(files, {options.scene, options.resume == options.checkpoint ? "" : options.resume});
+    checkOutputs(files,
+                 {options.scene, isSameFile(options.resume, options.checkpoint) ? "" : options.resume});
     const Overrides overrides = parseOverrides(options);
     const SceneChoices choices = overrides.choices(options);
-    catchInterrupts();
 
     StageSeconds seconds;
     Scene scene = loadScene(options.scene, choices);
+    checkNotRead(files, scene.files);
     overrides.applyTo(scene, options);
     for (const std::string& warning : scene.warnings)
         warn(warning);
@@ -247,11 +251,12 @@ void runRender(const RenderOptions& options) {
 
     Device device = openDevice(options.device);
     Progress progress(Progress::styleForStderr(options.quiet));
+    control.onStart = deferSignals;
     control.onProgress = [&](const RenderProgress& p) {
         if (p.samplesTotal == 0) return true;  // all has been resumed
         progress.update({static_cast<double>(p.samplesDone), static_cast<double>(p.samplesTotal), p.seconds,
                          options.timeLimit});
-        return !interrupted();
+        return !stopStatus();
     };
     const auto origin = [&](const RenderStatistics& statistics) {
         return originOf(scene, control.firstSample, statistics.directLightInClosedForm);
@@ -260,7 +265,7 @@ void runRender(const RenderOptions& options) {
         control.onCheckpoint = [&](const Film& film, const RenderStatistics& statistics) {
             try {
                 writeCheckpoint(options.checkpoint, origin(statistics), film, statistics);
-            } catch (const Error& e) {  // the next one may fit again
+            } catch (const std::exception& e) {  // the next one may fit again
                 progress.leaveLine();
                 warn(e.what());
             }
@@ -268,6 +273,7 @@ void runRender(const RenderOptions& options) {
     }
     std::optional<RenderFailure> failure;
     const RenderOutput output = renderWhatCanBe(device, scene, control, failure);
+    deferSignals();  // even if all has been resumed
     progress.finish();
 
     std::vector<std::string> warnings = resultWarnings(scene, control, output, failure.has_value());
@@ -282,34 +288,51 @@ void runRender(const RenderOptions& options) {
     }
     if (failure) scene.warnings.emplace_back(failure->what());
     const Clock::time_point writeStart = Clock::now();
-    const auto finish = [&] {
-        seconds.write = secondsSince(writeStart);
-        seconds.total = secondsSince(start);
-        if (options.report.empty()) return;
-        writeReport(options.report,
-                    renderReport(scene, control.firstSample, device.info(), output.statistics, seconds));
-    };
     WriteAll write;
     if (!options.checkpoint.empty() && !output.statistics.gaps) {
-        write(options.checkpoint, [&] {
-            writeCheckpoint(options.checkpoint, origin(output.statistics), output.film, output.statistics);
+        write(options.checkpoint, [&](const std::filesystem::path& path) {
+            writeCheckpoint(path, origin(output.statistics), output.film, output.statistics);
         });
     }
     writeImages(write, outputs, output.film.rows(),
                 filmImageOptions(origin(output.statistics), output.film, options.exposure));
-    write(options.report, finish);
+    seconds.write = secondsSince(writeStart);
+    seconds.total = secondsSince(start);
+    if (!options.report.empty()) {
+        write(options.report, [&](const std::filesystem::path& path) {
+            writeReport(path,
+                        renderReport(scene, control.firstSample, device.info(), output.statistics, seconds));
+        });
+    }
     const std::string there =
         fmt::format("{} of {} {}", output.film.totalSamples() + output.film.lightPaths(),
                     samplesInAll(scene, control), samplesName(scene));
     if (failure) {
-        write.warnOfFirst();
+        write.sayFailures();
         throw MachineError(fmt::format("{}; {} {}", failure->what(),
                                        write.failed() ? "there are" : "wrote what there is,", there));
     }
-    write.rethrow();
-    if (output.statistics.stopped && interrupted()) {
-        throw Error(ExitStatus::kInterrupted, fmt::format("interrupted: wrote what there is, {}", there));
+    if (const auto status = stopStatus(); status && (output.statistics.stopped || write.failed())) {
+        write.sayFailures();
+        throw Error(*status,
+                    fmt::format("{}: wrote what there is, {}",
+                                *status == ExitStatus::kTerminated ? "terminated" : "interrupted", there));
     }
+    write.finish();
+}
+
+/// `-o a.png a.exr`: words that are neither options nor the scene are further images after -o.
+void sortWords(const CLI::App& command, RenderOptions& options) {
+    std::vector<std::string> words = command.remaining(), others;
+    words.insert(words.begin(), options.scene);
+    for (std::string& word : words) {
+        const bool isOutput = !options.outputs.empty() && isImagePath(word);
+        (isOutput ? options.outputs : others).push_back(std::move(word));
+    }
+    if (others.empty()) throw UsageError("render: expected a SCENE: an .obj or .json file");
+    options.scene = others.front();
+    others.erase(others.begin());
+    if (!others.empty()) throw CLI::ExtrasError(command.get_name(), others);
 }
 
 }  // namespace
@@ -320,7 +343,7 @@ void addRenderCommand(CLI::App& app) {
     command->add_option("SCENE", options->scene, "The scene: .obj (with its .mtl) or .json")->required();
     command
         ->add_option("-o,--output", options->outputs,
-                     "Image to write: .exr, .png or .pfm; may be given several times (default: SCENE's name "
+                     "Images to write: .exr, .png or .pfm; may be given several times (default: SCENE's name "
                      "+ .png in the current folder)")
         ->type_name("FILE")
         ->allow_extra_args(false)
@@ -410,7 +433,11 @@ void addRenderCommand(CLI::App& app) {
                      "Write statistics as JSON to this file (-: standard output)")
         ->type_name("FILE");
     command->add_flag("--quiet", options->quiet, "No progress on standard error");
-    command->callback([options] { runRender(*options); });
+    command->allow_extras();
+    command->callback([options, command] {
+        sortWords(*command, *options);
+        runRender(*options);
+    });
 }
 
 }  // namespace duolux

@@ -11,6 +11,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/options.h"
+#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/film/image.h"
@@ -47,7 +48,10 @@ void runSheet(const SheetOptions& options) {
     }
     ImageOptions imageOptions;
     imageOptions.metadata.emplace_back("Software", fmt::format("duolux {}", versionString()));
-    writeImage(options.output, makeSheet(cells, options.columns), imageOptions);
+    const RadianceImage image = makeSheet(cells, options.columns);
+    WriteAll write;
+    write(options.output, [&](const std::filesystem::path& path) { writeImage(path, image, imageOptions); });
+    write.finish();
 }
 
 }  // namespace
@@ -65,7 +69,9 @@ void addSheetCommand(CLI::App& app) {
     command
         ->add_option("--label", options->labels,
                      "Caption of the first, second, ... image (default: the file's name)")
+        ->expected(1)
         ->allow_extra_args(false)
+        ->take_all()
         ->type_name("TEXT");
     command->add_option("images", options->images, "Images of one size")->required()->type_name("IMAGE");
     command->callback([options] { runSheet(*options); });

@@ -7,7 +7,7 @@
 namespace duolux {
 
 /// Exit statuses of the program (a contract with scripts).
-enum class ExitStatus : int { kDone = 0, kMachineFailed = 1, kUsage = 2, kBadInput = 3, kInterrupted = 130 };
+enum class ExitStatus : int { kDone = 0, kMachineFailed = 1, kUsage = 2, kBadInput = 3, kInterrupted = 130, kTerminated = 143 };
 
 /// Base of all errors that are reported to the user as one line. what() is that line, without a trailing
 /// newline.

@@ -111,7 +111,7 @@ Destination destinationOf(const fs::path& name) {
         if (isInProc(folder)) {
             destination.isStream = true;
         } else {
-            path = folder / fs::read_symlink(path);
+            path = path.parent_path() / fs::read_symlink(path);
         }
     }
     return destination;
@@ -261,7 +261,7 @@ void withDestination(const fs::path& name, const std::function<void(const Destin
     } catch (const std::system_error& e) {
         throw failed(e.code().message());
     } catch (const std::bad_alloc&) {
-        throw failed("out of memory");
+        throw;
     } catch (const std::exception& e) {
         throw failed(e.what());
     }
@@ -307,6 +307,24 @@ void writeFileAtomically(const fs::path& path, const Write& write) {
 
 void writeFile(const fs::path& path, std::string_view bytes) {
     writeFileAtomically(path, [&](FileWriter& file) { file.write(bytes); });
+}
+
+bool isSameFile(const fs::path& a, const fs::path& b) {
+    // Device and inode of each, or of the folder that it would be made in.
+    const auto isSame = [](const fs::path& x, const fs::path& y) {
+        struct stat first {};
+        struct stat second {};
+        return ::stat(x.c_str(), &first) == 0 && ::stat(y.c_str(), &second) == 0 &&
+               first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+    };
+    if (isSame(a, b)) return true;
+    try {
+        const Destination x = destinationOf(a), y = destinationOf(b);
+        return !x.old && !y.old && x.path.filename() == y.path.filename() &&
+               isSame(folderOf(x.path), folderOf(y.path));
+    } catch (const std::system_error&) {
+        return false;  // neither read nor written
+    }
 }
 
 void checkWritable(const fs::path& path) {

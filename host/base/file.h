@@ -45,6 +45,9 @@ void writeFileAtomically(const std::filesystem::path& path, const std::function<
 /// Writes a whole file like that.
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
 
+/// Whether two paths name the same file, which need not be there, however they are spelled and linked.
+bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Throws MachineError if writeFileAtomically could not write the file now. Leaves nothing behind.
 void checkWritable(const std::filesystem::path& path);
 

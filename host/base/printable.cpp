@@ -45,4 +45,19 @@ std::string inQuotes(std::string_view text) {
     return '"' + shortened(text) + '"';
 }
 
+std::string withoutMiddle(std::string text, std::size_t mostBytes) {
+    if (text.size() <= mostBytes) return text;
+    constexpr std::string_view kLeftOut = " ... ";
+    const std::size_t kept = mostBytes - kLeftOut.size();
+    std::size_t begin = kept - kept / 3, end = text.size() - kept / 3;
+    const auto isInCharacter = [&](std::size_t at) {
+        return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u;
+    };
+    while (isInCharacter(begin))
+        --begin;
+    while (isInCharacter(end))
+        ++end;
+    return text.replace(begin, end - begin, kLeftOut);
+}
+
 }  // namespace duolux

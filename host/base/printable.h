@@ -19,4 +19,7 @@ std::string shortened(std::string_view text, std::size_t most = kLongestName);
 /// The text in double quotes for a message: shortened and printable.
 std::string inQuotes(std::string_view text);
 
+/// UTF-8 text of at most `mostBytes`: longer text keeps its beginning and its end.
+std::string withoutMiddle(std::string text, std::size_t mostBytes);
+
 }  // namespace duolux

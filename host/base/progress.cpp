@@ -25,6 +25,12 @@ std::string bar(double fraction, int width) {
     return '[' + cells + ']';
 }
 
+/// Progress that nobody can see is no reason to stop.
+void show(std::FILE* out, const std::string& text) {
+    std::fputs(text.c_str(), out);
+    std::fflush(out);
+}
+
 int barWidthFor(std::FILE* out) {
     winsize size{};
     const int columns = ::ioctl(::fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
@@ -101,20 +107,19 @@ void Progress::finish() {
 }
 
 void Progress::leaveLine() {
-    if (lineOpen_) fmt::print(out_, "\n");
+    if (lineOpen_) show(out_, "\n");
     lineOpen_ = false;
 }
 
 void Progress::draw(bool finished) {
     lastDrawn_ = state_.seconds;
     if (style_ == Style::kPlain) {
-        fmt::print(out_, "{}\n", progressLine(state_, 0, finished));
+        show(out_, progressLine(state_, 0, finished) + "\n");
     } else {
         constexpr const char* kEraseToEndOfLine = "\x1b[K";
-        fmt::print(out_, "\r{}{}", progressLine(state_, barWidthFor(out_), finished), kEraseToEndOfLine);
+        show(out_, "\r" + progressLine(state_, barWidthFor(out_), finished) + kEraseToEndOfLine);
         lineOpen_ = true;
     }
-    std::fflush(out_);
 }
 
 }  // namespace duolux

@@ -262,6 +262,10 @@ SceneSuite::SceneSuite(Device& device, std::string name, const std::filesystem::
 
 SceneSuite::~SceneSuite() = default;
 
+const std::vector<std::filesystem::path>& SceneSuite::files() const {
+    return state_->scene.files;
+}
+
 const Tuning& SceneSuite::tuning() const {
     return state_->deviceScene.tuning;
 }

@@ -41,6 +41,9 @@ class SceneSuite {
 
     const Tuning& tuning() const;
 
+    /// What was read of the scene.
+    const std::vector<std::filesystem::path>& files() const;
+
   private:
     struct State;
     std::unique_ptr<State> state_;

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "host/app/console.h"
 #include "host/app/options.h"
+#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/film/image.h"
@@ -43,7 +45,8 @@ Lighting lightingOf(const std::string& name) {
     return name == "wireframe" ? Lighting::kWireframe : Lighting::kFixedFunction;
 }
 
-void writeImages(const Arguments& arguments, const Scene& scene, std::vector<glm::vec3> pixels) {
+void writeImages(WriteAll& write, const Arguments& arguments, const Scene& scene,
+                 std::vector<glm::vec3> pixels) {
     RadianceImage image{scene.render.width, scene.render.height, {}, std::move(pixels)};
     image.invisible.assign(image.visible.size(), glm::vec3(0.0f));
     ImageOptions options;
@@ -53,7 +56,7 @@ void writeImages(const Arguments& arguments, const Scene& scene, std::vector<glm
                         {"lighting", arguments.lighting},
                         {"scene", scene.hash}};
     for (const std::string& output : arguments.outputs)
-        writeImage(output, image, options);
+        write(output, [&](const std::filesystem::path& path) { writeImage(path, image, options); });
 }
 
 void run(const Arguments& arguments) {
@@ -66,8 +69,9 @@ void run(const Arguments& arguments) {
     checkOutputs(files, {arguments.scene});
     const Clock::time_point start = Clock::now();
     Scene scene = loadScene(arguments.scene);
+    checkNotRead(files, scene.files);
     for (const std::string& warning : scene.warnings)
-        fmt::print(stderr, "duolux-gl: warning: {}\n", warning);
+        say(fmt::format("duolux-gl: warning: {}", warning));
     if (!arguments.size.empty()) {
         const glm::uvec2 size = parseSize(arguments.size);
         scene.render.width = size.x;
@@ -89,10 +93,8 @@ void run(const Arguments& arguments) {
     std::vector<PointLight> lights;
     if (options.lighting != Lighting::kWireframe) lights = pointLights(scene, tiling);
     if (options.lighting == Lighting::kFixedFunction && coarseness(scene, lights) > kCoarse) {
-        fmt::print(stderr,
-                   "duolux-gl: warning: some triangles are large against their distance from a light, and "
-                   "OpenGL lights "
-                   "them at their corners alone; use smaller ones, or --lighting per-fragment\n");
+        say("duolux-gl: warning: some triangles are large against their distance from a light, and OpenGL "
+            "lights them at their corners alone; use smaller ones, or --lighting per-fragment");
     }
     const double loadSeconds = secondsSince(start);
 
@@ -106,9 +108,10 @@ void run(const Arguments& arguments) {
     const Clock::time_point drawStart = Clock::now();
     std::vector<glm::vec3> pixels = glScene.draw(lights, options);
     const double drawSeconds = secondsSince(drawStart);
-    writeImages(arguments, scene, std::move(pixels));
+    WriteAll write;
+    writeImages(write, arguments, scene, std::move(pixels));
 
-    if (arguments.report.empty()) return;
+    if (arguments.report.empty()) return write.finish();
     nlohmann::ordered_json report;
     report["version"] = 1;
     report["program"] = {{"version", versionString()}, {"commit", commitString()}};
@@ -130,11 +133,13 @@ void run(const Arguments& arguments) {
                          {"upload", uploadSeconds},
                          {"draw", drawSeconds},
                          {"total", secondsSince(start)}};
-    writeReport(arguments.report, report.dump(2) + "\n");
+    write(arguments.report,
+          [&](const std::filesystem::path& path) { writeReport(path, report.dump(2) + "\n"); });
+    write.finish();
 }
 
 int fail(const std::string& line, ExitStatus status) {
-    fmt::print(stderr, "duolux-gl: {}\n", line);
+    say(fmt::format("duolux-gl: {}", line));
     return static_cast<int>(status);
 }
 
@@ -151,7 +156,9 @@ int parseAndRun(int argc, char** argv) {
     app.add_option("-o,--output", arguments.outputs,
                    "Image to write: .exr, .png or .pfm; may be given several times")
         ->required()
+        ->expected(1)
         ->allow_extra_args(false)
+        ->take_all()
         ->type_name("FILE");
     app.add_option("--lights", arguments.lights,
                    "Point lights of each luminaire: 5 (centre and corners of 3x3 tiles), or ROWSxCOLUMNS")

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "host/app/console.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -18,7 +19,7 @@ namespace duolux {
 namespace {
 
 int fail(const std::string& line, ExitStatus status) {
-    fmt::print(stderr, "duolux-paper: {}\n", line);
+    say(fmt::format("duolux-paper: {}", line));
     return static_cast<int>(status);
 }
 

@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "host/app/console.h"
 #include "host/app/options.h"
+#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/temporary_folder.h"
 #include "host/bench/bench_report.h"
@@ -164,13 +166,16 @@ void run(const PeerOptions& options) {
     fmt::print("{}", benchTable(results));
     printRatios(results);
     if (!options.json.empty()) {
-        writeReport(options.json, benchJson(results, device.info(),
-                                            {{"width", options.size},
-                                             {"height", options.size},
-                                             {"spp", options.spp},
-                                             {"bounces", options.bounces},
-                                             {"repeat", options.repeat}},
-                                            tunings));
+        const std::string json = benchJson(results, device.info(),
+                                           {{"width", options.size},
+                                            {"height", options.size},
+                                            {"spp", options.spp},
+                                            {"bounces", options.bounces},
+                                            {"repeat", options.repeat}},
+                                           tunings);
+        WriteAll write;
+        write(options.json, [&](const std::filesystem::path& path) { writeReport(path, json); });
+        write.finish();
     }
 }
 
@@ -184,7 +189,9 @@ int main(int argc, char** argv) {
                    fmt::format("Scene files, or {}", fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
     app.add_option("--only", options.only, "Only benchmarks whose names contain this text; may be repeated")
-        ->allow_extra_args(false);
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->take_all();
     app.add_option("--device", options.device, "Duolux's device")->capture_default_str();
     app.add_option("--repeat", options.repeat, "Runs that count")
         ->capture_default_str()
@@ -206,13 +213,13 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
-        fmt::print(stderr, "duolux-peers: {}\n", describeParseError(app, e));
+        say(fmt::format("duolux-peers: {}", describeParseError(app, e)));
         return static_cast<int>(ExitStatus::kUsage);
     } catch (const Error& e) {
-        fmt::print(stderr, "duolux-peers: {}\n", e.what());
+        say(fmt::format("duolux-peers: {}", e.what()));
         return static_cast<int>(e.status());
     } catch (const std::exception& e) {
-        fmt::print(stderr, "duolux-peers: {}\n", e.what());
+        say(fmt::format("duolux-peers: {}", e.what()));
         return static_cast<int>(ExitStatus::kMachineFailed);
     }
 }

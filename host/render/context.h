@@ -28,7 +28,10 @@ struct RenderContext {
     std::uint64_t samplesTotal() const;
     std::uint64_t samplesResumed = 0;
 
-    void begin() { start = lastReceived = lastCheckpoint = Clock::now(); }
+    void begin() {
+        if (control.onStart) control.onStart();
+        start = lastReceived = lastCheckpoint = Clock::now();
+    }
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
     /// A dispatch begun now might not end within the time limit.

@@ -51,6 +51,8 @@ struct RenderControl {
     double checkpointSeconds = 60.0;
     DirectLight directLight = DirectLight::kAuto;
     TuningChoice tuning;
+    /// Called once before the first dispatch: until then there is nothing to lose.
+    std::function<void()> onStart;
     /// Called now and then from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
     /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the

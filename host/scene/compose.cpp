@@ -106,6 +106,7 @@ void appendMesh(Scene& scene, Mesh mesh) {
         material = indices[material];
     appendGeometry(scene.geometry, std::move(mesh.geometry));
     scene.meshBytes += mesh.bytes;
+    scene.files.insert(scene.files.end(), mesh.files.begin(), mesh.files.end());
     for (std::string& warning : mesh.warnings)
         scene.warnings.push_back(std::move(warning));
 }

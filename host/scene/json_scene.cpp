@@ -116,6 +116,7 @@ class MeshCache {
         } else {
             entry->second.warnings.clear();
             entry->second.bytes = 0;
+            entry->second.files.clear();
         }
         return entry->second;
     }
@@ -203,6 +204,7 @@ SceneFile readJsonScene(const fs::path& path) {
 
     Scene scene;
     scene.source = path;
+    scene.files.push_back(path);
     CameraChoice camera;
     if (const auto node = root.find("camera")) camera = readCamera(*node);
     if (const auto film = root.find("film")) readFilm(*film, scene.render);

@@ -12,6 +12,7 @@ namespace duolux {
 /// One mesh file as it was read: triangles in object space, among them possibly some of zero area.
 struct Mesh {
     std::filesystem::path source;
+    std::vector<std::filesystem::path> files;  ///< that were read: the mesh and its MTL files
     Geometry geometry;
     std::vector<Material> materials;  ///< of its MTL files, used or not, and those that faces name besides
     std::vector<std::string> warnings;

@@ -84,6 +84,7 @@ void loadLibraries(const fs::path& path, const ObjFile& file, Mesh& mesh, Materi
                     continue;
                 }
                 MaterialLibrary library = loadMtl(mtl);
+                mesh.files.push_back(mtl);
                 for (const Material& material : library.materials)
                     table.add(material);
                 for (std::string& warning : library.warnings)
@@ -248,6 +249,7 @@ void warnOfUndefined(const fs::path& path, const MaterialTable& table, Mesh& mes
 Mesh loadObj(const fs::path& path) {
     Mesh mesh;
     mesh.source = path;
+    mesh.files.push_back(path);
     MaterialTable table(mesh);
     ObjFile file;
     {

@@ -74,8 +74,9 @@ struct RenderSettings {
 /// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera
 /// vectors.
 struct Scene {
-    std::filesystem::path source;  ///< the file that was loaded
-    std::string hash;              ///< 16 hex digits over everything the image depends on but RenderSettings
+    std::filesystem::path source;              ///< the file that was loaded
+    std::vector<std::filesystem::path> files;  ///< all that were read
+    std::string hash;  ///< 16 hex digits over everything the image depends on but RenderSettings
     Camera camera;
     RenderSettings render;
     glm::vec2 display{0.0f, 1.0f};  ///< the row d of eq. 8; the displayed radiance is d . L

@@ -45,5 +45,23 @@ TEST(Printable, InputErrorsStayShortAndPrintable) {
     EXPECT_TRUE(line.ends_with("; r\\x0a")) << line;
 }
 
+TEST(Printable, LongTextKeepsItsBeginningAndItsEnd) {
+    const std::string text =
+        "file.json: key " + std::string(1'000'000, 'k') + " is unknown; expected \"camera\"";
+    const std::string line = withoutMiddle(text, 300);
+    EXPECT_EQ(line.size(), 300u);
+    EXPECT_EQ(line.substr(0, 16), text.substr(0, 16));
+    EXPECT_EQ(line.substr(270), text.substr(text.size() - 30));
+    std::string accents;
+    while (accents.size() < 400)
+        accents += "\xC3\xA9";
+    for (std::size_t most = 100; most < 110; ++most) {
+        const std::string shorter = withoutMiddle(accents, most);
+        EXPECT_EQ(printable(shorter), shorter) << most;  // no character was cut
+        EXPECT_LE(shorter.size(), most);
+        EXPECT_EQ(withoutMiddle(std::string(most, 'x'), most), std::string(most, 'x'));
+    }
+}
+
 }  // namespace
 }  // namespace duolux

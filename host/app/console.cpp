@@ -1,0 +1,53 @@
+#include "host/app/console.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "host/base/error.h"
+#include "host/base/printable.h"
+
+namespace duolux {
+
+namespace {
+
+/// Of a line on standard error, in bytes: room for some paths.
+constexpr std::size_t kLongestLine = 1000;
+
+}  // namespace
+
+void openStandardStreams() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
+        // Gets this number, the lowest that is free. Opened the wrong way, so that using it fails as before.
+        static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+    }
+}
+
+void say(std::string_view line) {
+    std::fflush(stdout);  // in order, where both go to one place
+    const std::string text = withoutMiddle(printable(line), kLongestLine) + "\n";
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+void warn(std::string_view text) {
+    say(fmt::format("duolux: warning: {}", text));
+}
+
+void printResult(std::string_view text) {
+    errno = 0;
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0 &&
+        std::ferror(stdout) == 0) {
+        return;
+    }
+    const char* reason = errno != 0 ? std::strerror(errno) : "an earlier part was lost";
+    throw MachineError(fmt::format("standard output: cannot write: {}", reason));
+}
+
+}  // namespace duolux

@@ -1,0 +1,122 @@
+// Standard streams that are closed, full or left by their reader, and signals: the picture is written all the
+// same, and the exit status is true.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+
+#include "host/film/image.h"
+#include "tests/cli/run_duolux.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+class Streams : public testing::Test {
+  protected:
+    void SetUp() override {
+        // Nothing emits: a warning is due.
+        std::ofstream(folder_ / "q.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    }
+
+    /// Runs a command of bash, in which $D is the program and $R a short render.
+    ProgramResult shell(const std::string& command) const {
+        return runProgram(
+            "/bin/bash", folder_.path(), {"-c", command}, std::nullopt, 60s,
+            {"D=" DUOLUX_EXECUTABLE,
+             "R=" DUOLUX_EXECUTABLE " render q.obj --device cpu --size 16x16 --spp 1 -o a.png"});
+    }
+    bool isPicture(const std::string& name) const { return readImage(folder_ / name).width > 0; }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Streams, MessagesThatNobodyCanReadCostNothing) {
+    for (const char* streams : {"2>&-", "2>/dev/full", "0>&- 1>&- 2>&-", "2> >(exit)"}) {
+        SCOPED_TRACE(streams);
+        const ProgramResult result = shell(std::string("trap '' PIPE; $R ") + streams);
+        EXPECT_EQ(result.status, 0);
+        EXPECT_TRUE(isPicture("a.png"));
+        std::filesystem::remove(folder_ / "a.png");
+    }
+    EXPECT_EQ(shell("$D info none.obj 2>&-").status, 3);
+    EXPECT_EQ(shell("$D render q.obj --spp none 2>/dev/full").status, 2);
+}
+
+TEST_F(Streams, ResultsThatNobodyCanReadAreAnError) {
+    for (const char* streams : {">&-", ">/dev/full", "> >(exec >&-; sleep 0.1)"}) {
+        SCOPED_TRACE(streams);
+        const ProgramResult result = shell(std::string("$R --report - ") + streams);
+        EXPECT_EQ(result.status, 1);
+        EXPECT_THAT(result.err, HasSubstr("duolux: standard output: cannot write: "));
+        EXPECT_TRUE(isPicture("a.png"));
+    }
+    const ProgramResult left = shell("$D info q.obj | true; echo ${PIPESTATUS[0]}");
+    EXPECT_EQ(left.out, "1\n");
+    EXPECT_EQ(left.err, "duolux: standard output: cannot write: Broken pipe\n");
+}
+
+class Signals : public Streams {
+  protected:
+    ProgramResult render(const std::string& scene, std::vector<std::string> arguments, int signal,
+                         std::chrono::milliseconds after) {
+        arguments.insert(arguments.begin(),
+                         {"render", scene, "--device", "cpu", "--quiet", "--size", "32x32"});
+        return runDuolux(folder_.path(), std::move(arguments), ProgramSignal{signal, after});
+    }
+};
+
+TEST_F(Signals, ActWhileASceneIsLoaded) {
+    ASSERT_EQ(::mkfifo((folder_ / "f.obj").c_str(), 0600), 0);
+    for (const auto& [signal, status] : {std::pair(SIGINT, 130), {SIGHUP, 130}, {SIGTERM, 143}}) {
+        const ProgramResult result = render("f.obj", {"-o", "a.png"}, signal, 200ms);
+        EXPECT_EQ(result.status, status);
+        EXPECT_EQ(result.err, status == 130 ? "duolux: interrupted\n" : "duolux: terminated\n");
+    }
+}
+
+TEST_F(Signals, KeepTheWorkOfARender) {
+    for (const auto& [signal, status] : {std::pair(SIGHUP, 130), {SIGTERM, 143}, {SIGXCPU, 143}}) {
+        SCOPED_TRACE(signal);
+        const ProgramResult result =
+            render("q.obj", {"--spp", "10000000", "-o", "a.png", "--checkpoint", "a.part"}, signal, 2500ms);
+        EXPECT_EQ(result.status, status);
+        EXPECT_THAT(result.err, HasSubstr(status == 130 ? "interrupted: wrote" : "terminated: wrote"));
+        EXPECT_TRUE(isPicture("a.png"));
+        EXPECT_TRUE(std::filesystem::remove(folder_ / "a.part"));
+        std::filesystem::remove(folder_ / "a.png");
+    }
+}
+
+TEST_F(Signals, AHangUpThatWasIgnoredIsIgnored) {
+    const ProgramResult result =
+        shell("trap '' HUP; $R --time-limit 2 --spp 10000000 & sleep 1; kill -HUP $!; wait $!");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("time limit"));
+}
+
+TEST_F(Signals, ActWhileAPipeWaitsForItsReader) {
+    ASSERT_EQ(::mkfifo((folder_ / "f.png").c_str(), 0600), 0);
+    const ProgramResult result =
+        render("q.obj", {"--spp", "1", "-o", "f.png", "-o", "a.exr"}, SIGTERM, 2500ms);
+    EXPECT_EQ(result.status, 143);
+    EXPECT_THAT(result.err, HasSubstr("f.png: cannot write: Interrupted"));
+    EXPECT_TRUE(isPicture("a.exr"));
+}
+
+TEST_F(Signals, TheSecondEndsTheProgramAtOnce) {
+    ASSERT_EQ(::mkfifo((folder_ / "f.png").c_str(), 0600), 0);
+    const ProgramResult result =
+        shell("$R -o f.png --spp 10000000 & sleep 2; kill -TERM $!; sleep 1; kill -INT $!; wait $!");
+    EXPECT_EQ(result.status, 130);
+    EXPECT_THAT(result.err, HasSubstr("duolux: interrupted\n"));
+    EXPECT_TRUE(isPicture("a.png"));
+}
+
+}  // namespace
+}  // namespace duolux::test
