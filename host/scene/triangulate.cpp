@@ -4,7 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+
+#include "host/scene/clip_ears.h"
 
 namespace duolux {
 
@@ -37,11 +38,6 @@ std::vector<glm::dvec2> project(std::span<const glm::vec3> corners, const glm::d
     return points;
 }
 
-/// Twice the signed area; positive: counter-clockwise.
-double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 bool isConvex(const std::vector<glm::dvec2>& points) {
     // Every turn to the left, and once around only: the sum of the turns of a star is more than one round.
     double round = 0.0;
@@ -49,72 +45,12 @@ bool isConvex(const std::vector<glm::dvec2>& points) {
         const glm::dvec2& a = points[i];
         const glm::dvec2& b = points[(i + 1) % points.size()];
         const glm::dvec2& c = points[(i + 2) % points.size()];
-        const double turn = cross(a, b, c);
+        const double turn = turnAt(a, b, c);
         if (turn <= 0.0) return false;
         round += std::atan2(turn, glm::dot(b - a, c - b));
     }
     return round < 7.0;  // 2 pi, and not 4 pi
 }
-
-/// Points on the border count as inside, corners of the triangle do not.
-bool contains(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& p) {
-    if (p == a || p == b || p == c) return false;
-    return cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0;
-}
-
-/// Ear clipping (Meisters 1975). `ring` holds the corners that are left.
-class EarClipper {
-  public:
-    explicit EarClipper(const std::vector<glm::dvec2>& points) : points_(points), ring_(points.size()) {
-        std::iota(ring_.begin(), ring_.end(), 0u);
-    }
-
-    void run(std::vector<Triangle>& triangles) {
-        std::size_t from = 0;
-        while (ring_.size() > 3) {
-            const std::size_t ear = findEar(from);
-            triangles.push_back({previous(ear), ring_[ear], next(ear)});
-            ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
-            // Going on behind the ear keeps the triangles from all meeting in one corner.
-            from = ear % ring_.size();
-        }
-        triangles.push_back({ring_[0], ring_[1], ring_[2]});
-    }
-
-  private:
-    std::uint32_t previous(std::size_t i) const { return ring_[(i + ring_.size() - 1) % ring_.size()]; }
-    std::uint32_t next(std::size_t i) const { return ring_[(i + 1) % ring_.size()]; }
-    double turnAt(std::size_t i) const {
-        return cross(points_[previous(i)], points_[ring_[i]], points_[next(i)]);
-    }
-
-    /// The first ear from `from` on. Without any, a corner on a straight line, else just the next one.
-    std::size_t findEar(std::size_t from) const {
-        std::vector<std::uint32_t> reflex;
-        for (std::size_t i = 0; i < ring_.size(); ++i) {
-            if (turnAt(i) <= 0.0) reflex.push_back(ring_[i]);
-        }
-        std::size_t straight = ring_.size();
-        for (std::size_t step = 0; step < ring_.size(); ++step) {
-            const std::size_t i = (from + step) % ring_.size();
-            const double turn = turnAt(i);
-            if (turn == 0.0 && straight == ring_.size()) straight = i;
-            if (turn > 0.0 && isEmpty(i, reflex)) return i;
-        }
-        return straight < ring_.size() ? straight : from;
-    }
-
-    bool isEmpty(std::size_t i, const std::vector<std::uint32_t>& reflex) const {
-        const glm::dvec2& a = points_[previous(i)];
-        const glm::dvec2& b = points_[ring_[i]];
-        const glm::dvec2& c = points_[next(i)];
-        return std::none_of(reflex.begin(), reflex.end(),
-                            [&](std::uint32_t other) { return contains(a, b, c, points_[other]); });
-    }
-
-    const std::vector<glm::dvec2>& points_;
-    std::vector<std::uint32_t> ring_;
-};
 
 void fan(std::uint32_t count, std::vector<Triangle>& triangles) {
     for (std::uint32_t i = 1; i + 1 < count; ++i)
@@ -154,7 +90,7 @@ void triangulate(std::span<const glm::vec3> corners, std::vector<Triangle>& tria
     if (count == 4) return cutQuadrilateral(corners, area, triangles);
     const std::vector<glm::dvec2> points = project(corners, area);
     if (isConvex(points)) return fan(count, triangles);
-    EarClipper(points).run(triangles);
+    clipEars(points, triangles);
 }
 
 }  // namespace duolux

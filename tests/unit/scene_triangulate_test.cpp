@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
+#include <numeric>
 #include <random>
 #include <vector>
 
+#include "host/scene/clip_ears.h"
 #include "host/scene/triangulate.h"
 
 namespace duolux {
@@ -103,6 +106,98 @@ TEST(Triangulate, RandomStarShapedPolygons) {
         }
         expectTiling(polygon);
     }
+}
+
+/// Ear clipping as it is defined, in cubic time.
+std::vector<Triangle> clipByDefinition(const std::vector<glm::dvec2>& points) {
+    std::vector<std::uint32_t> ring(points.size());
+    std::iota(ring.begin(), ring.end(), 0u);
+    const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        return turnAt(points[a], points[b], points[c]);
+    };
+    std::vector<Triangle> triangles;
+    for (std::size_t from = 0; ring.size() > 3;) {
+        const std::size_t n = ring.size();
+        const auto corner = [&](std::size_t i) {
+            return Triangle{ring[(i + n - 1) % n], ring[i % n], ring[(i + 1) % n]};
+        };
+        const auto turnOf = [&](std::size_t i) { return turn(corner(i)[0], corner(i)[1], corner(i)[2]); };
+        const auto isEar = [&](std::size_t i) {
+            const auto [a, b, c] = corner(i);
+            if (turnOf(i) <= 0.0) return false;
+            for (std::size_t j = 0; j < n; ++j) {
+                const std::uint32_t p = ring[j];
+                const bool isCorner =
+                    points[p] == points[a] || points[p] == points[b] || points[p] == points[c];
+                if (!isCorner && turnOf(j) <= 0.0 && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
+                    turn(c, a, p) >= 0.0)
+                    return false;
+            }
+            return true;
+        };
+        std::size_t chosen = n;
+        for (std::size_t step = 0; step < n && chosen == n; ++step) {
+            if (isEar((from + step) % n)) chosen = (from + step) % n;
+        }
+        for (std::size_t step = 0; step < n && chosen == n; ++step) {
+            if (turnOf((from + step) % n) == 0.0) chosen = (from + step) % n;
+        }
+        if (chosen == n) chosen = from;
+        triangles.push_back(corner(chosen));
+        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(chosen));
+        from = chosen % ring.size();
+    }
+    triangles.push_back({ring[0], ring[1], ring[2]});
+    return triangles;
+}
+
+TEST(Triangulate, ClipsEarsAsDefined) {
+    std::mt19937 random(11);
+    for (int round = 0; round < 400; ++round) {
+        // Points of a coarse grid: many on one line, many the same, and polygons that cross themselves.
+        std::uniform_int_distribution<int> coordinate(0, round % 2 == 0 ? 5 : 1000);
+        std::vector<glm::dvec2> points(static_cast<std::size_t>(5 + round % 40));
+        for (glm::dvec2& point : points)
+            point = glm::dvec2(coordinate(random), coordinate(random));
+        std::vector<Triangle> triangles;
+        clipEars(points, triangles);
+        ASSERT_EQ(triangles, clipByDefinition(points)) << "round " << round;
+    }
+}
+
+/// Seconds of CPU time for a polygon of very many corners; n - 2 triangles come out.
+double secondsFor(const Polygon& polygon) {
+    std::vector<Triangle> triangles;
+    const std::clock_t start = std::clock();
+    triangulate(polygon, triangles);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_EQ(triangles.size(), polygon.size() - 2);
+    return seconds;
+}
+
+TEST(Triangulate, TimeGrowsWithTheCorners) {
+    constexpr int kCorners = 50'000;
+    constexpr double kMost = 5.0;  // a tenth of a second, where the square of the corners takes half a minute
+    Polygon wave, comb, spiral, tangle;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> anywhere(0.0f, 1.0f);
+    for (int i = 0; i < kCorners; ++i) {
+        const double angle = 2 * 3.14159265358979 * i / kCorners;
+        const double radius = 1 + 0.05 * std::sin(40 * angle);
+        wave.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+        comb.emplace_back(kCorners - i, i % 2 == 0 ? 0.1f : 5000.0f, 0);
+        const int along = i < kCorners / 2 ? i : kCorners - 1 - i;  // there and back
+        const double turn = 0.004 * along, distance = 1 + turn + (i < kCorners / 2 ? 1.0 : 0.0);
+        spiral.emplace_back(distance * std::cos(turn), distance * std::sin(turn), 0.0);
+        tangle.emplace_back(anywhere(random), anywhere(random), anywhere(random));
+    }
+    comb.emplace_back(0, -1, 0);
+    comb.emplace_back(kCorners, -1, 0);
+    EXPECT_LT(secondsFor(wave), kMost);
+    EXPECT_LT(secondsFor(comb), kMost);
+    EXPECT_LT(secondsFor(spiral), kMost);
+    EXPECT_LT(secondsFor(tangle), kMost);
+    expectTiling(wave);
 }
 
 TEST(Triangulate, CollinearCornersAndHolesByABridge) {

@@ -1,0 +1,260 @@
+#include "host/scene/clip_ears.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <span>
+
+namespace duolux {
+
+namespace {
+
+/// Points on the border count as inside, corners of the triangle do not.
+bool contains(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& p) {
+    if (p == a || p == b || p == c) return false;
+    return turnAt(a, b, p) >= 0.0 && turnAt(b, c, p) >= 0.0 && turnAt(c, a, p) >= 0.0;
+}
+
+/// A k-d tree over points that can be switched on and off. Node i has the children 2 i and 2 i + 1.
+class PointTree {
+  public:
+    explicit PointTree(const std::vector<glm::dvec2>& points) : points_(points), order_(points.size()) {
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::size_t nodes = 2;
+        while (nodes * kLeaf < 2 * points.size())
+            nodes *= 2;
+        nodes_.resize(2 * nodes);
+        leafOf_.resize(points.size());
+        on_.assign(points.size(), false);
+        build(1, 0, points.size());
+    }
+
+    void set(std::uint32_t point, bool on) {
+        if (on_[point] == on) return;
+        on_[point] = on;
+        for (std::size_t node = leafOf_[point]; node > 0; node /= 2)
+            nodes_[node].on += on ? 1 : -1;
+    }
+
+    /// Some point that is on and that the triangle, which is counter-clockwise, contains.
+    std::optional<std::uint32_t> findIn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) const {
+        std::size_t stack[64];
+        std::size_t depth = 0;
+        stack[depth++] = 1;
+        while (depth > 0) {
+            const std::size_t index = stack[--depth];
+            const Node& node = nodes_[index];
+            if (node.on == 0 || !mayOverlap(node, a, b, c)) continue;
+            if (node.isLeaf) {
+                for (std::size_t i = node.begin; i < node.end; ++i) {
+                    const std::uint32_t point = order_[i];
+                    if (on_[point] && contains(a, b, c, points_[point])) return point;
+                }
+                continue;
+            }
+            stack[depth++] = 2 * index;
+            stack[depth++] = 2 * index + 1;
+        }
+        return std::nullopt;
+    }
+
+  private:
+    static constexpr std::size_t kLeaf = 8;
+
+    struct Node {
+        glm::dvec2 lower, upper;
+        std::size_t begin = 0, end = 0;  ///< in order_
+        std::ptrdiff_t on = 0;           ///< how many points are
+        bool isLeaf = true;
+    };
+
+    void build(std::size_t index, std::size_t begin, std::size_t end) {
+        Node& node = nodes_[index];
+        node.begin = begin;
+        node.end = end;
+        node.lower = node.upper = points_[order_[begin]];
+        for (std::size_t i = begin; i < end; ++i) {
+            node.lower = glm::min(node.lower, points_[order_[i]]);
+            node.upper = glm::max(node.upper, points_[order_[i]]);
+        }
+        node.isLeaf = end - begin <= kLeaf;
+        if (node.isLeaf) {
+            for (std::size_t i = begin; i < end; ++i)
+                leafOf_[order_[i]] = index;
+            return;
+        }
+        const glm::dvec2 size = node.upper - node.lower;
+        const int axis = size.x >= size.y ? 0 : 1;
+        const std::size_t middle = begin + (end - begin) / 2;
+        const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+        // Equal coordinates are ordered, too, so that the tree does not depend on the library.
+        std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t p, std::uint32_t q) {
+            const double x = points_[p][axis], y = points_[q][axis];
+            return x < y || (x == y && p < q);
+        });
+        build(2 * index, begin, middle);
+        build(2 * index + 1, middle, end);
+    }
+
+    /// False if the box lies beyond one of the triangle's sides or outside its bounds.
+    static bool mayOverlap(const Node& box, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+        const glm::dvec2 lower = glm::min(glm::min(a, b), c), upper = glm::max(glm::max(a, b), c);
+        if (glm::any(glm::lessThan(upper, box.lower)) || glm::any(glm::lessThan(box.upper, lower)))
+            return false;
+        return !isBeyond(box, a, b) && !isBeyond(box, b, c) && !isBeyond(box, c, a);
+    }
+
+    /// All corners of the box, and so all its points, are on the outer side.
+    static bool isBeyond(const Node& box, const glm::dvec2& from, const glm::dvec2& to) {
+        return turnAt(from, to, box.lower) < 0.0 && turnAt(from, to, box.upper) < 0.0 &&
+               turnAt(from, to, {box.lower.x, box.upper.y}) < 0.0 &&
+               turnAt(from, to, {box.upper.x, box.lower.y}) < 0.0;
+    }
+
+    const std::vector<glm::dvec2>& points_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+    std::vector<std::size_t> leafOf_;
+    std::vector<bool> on_;
+};
+
+class EarClipper {
+  public:
+    explicit EarClipper(const std::vector<glm::dvec2>& points)
+        : points_(points), tree_(points), count_(static_cast<std::uint32_t>(points.size())) {
+        corners_.resize(count_);
+        blocks_.assign(count_, {});
+        blocker_.assign(count_, kNone);
+        for (std::uint32_t i = 0; i < count_; ++i)
+            corners_[i] = {(i + count_ - 1) % count_, (i + 1) % count_};
+        for (std::uint32_t i = 0; i < count_; ++i)
+            updateTurn(i);
+        for (std::uint32_t i = 0; i < count_; ++i)
+            updateEar(i);
+    }
+
+    void run(std::vector<std::array<std::uint32_t, 3>>& triangles) {
+        std::uint32_t from = 0;
+        for (std::uint32_t left = count_; left > 3; --left) {
+            const std::uint32_t ear = chooseCorner(from);
+            triangles.push_back({corners_[ear].previous, ear, corners_[ear].next});
+            // Going on behind the ear keeps the triangles from all meeting in one corner.
+            from = corners_[ear].next;
+            remove(ear);
+        }
+        // The last three in the order of the polygon.
+        std::array<std::uint32_t, 3> rest{corners_[from].previous, from, corners_[from].next};
+        std::sort(rest.begin(), rest.end());
+        triangles.push_back(rest);
+    }
+
+  private:
+    struct Corner {
+        std::uint32_t previous, next;
+        double turn = 0.0;
+    };
+
+    std::uint32_t chooseCorner(std::uint32_t from) {
+        while (const auto ear = firstFrom(ears_, from)) {
+            // Corners that have turned inwards since may lie in it.
+            if (!findBlocker(*ear)) return *ear;
+            updateEar(*ear);
+        }
+        return firstFrom(straight_, from).value_or(from);
+    }
+
+    /// The first corner of the set from `from` on, going around.
+    static std::optional<std::uint32_t> firstFrom(const std::set<std::uint32_t>& set, std::uint32_t from) {
+        if (set.empty()) return std::nullopt;
+        const auto found = set.lower_bound(from);
+        return found == set.end() ? *set.begin() : *found;
+    }
+
+    void remove(std::uint32_t corner) {
+        const auto [previous, next, turn] = corners_[corner];
+        corners_[previous].next = next;
+        corners_[next].previous = previous;
+        ears_.erase(corner);
+        straight_.erase(corner);
+        corners_[corner].turn = 0.0;
+        isGone(corner);
+        updateTurn(previous);
+        updateTurn(next);
+        updateEar(previous);
+        updateEar(next);
+        retry();
+    }
+
+    void updateTurn(std::uint32_t i) {
+        Corner& corner = corners_[i];
+        corner.turn = turnAt(points_[corner.previous], points_[i], points_[corner.next]);
+        if (corner.turn == 0.0) {
+            straight_.insert(i);
+        } else {
+            straight_.erase(i);
+        }
+        if (corner.turn <= 0.0) {
+            tree_.set(i, true);
+        } else {
+            isGone(i);
+        }
+    }
+
+    /// The corner is in no other's way any more.
+    void isGone(std::uint32_t corner) {
+        tree_.set(corner, false);
+        for (const std::uint32_t other : blocks_[corner]) {
+            if (blocker_[other] != corner) continue;  // another one is by now
+            blocker_[other] = kNone;
+            retry_.push_back(other);
+        }
+        blocks_[corner] = {};
+    }
+
+    void retry() {
+        for (const std::uint32_t corner : retry_) {
+            if (corners_[corner].turn > 0.0 && !ears_.contains(corner)) updateEar(corner);
+        }
+        retry_.clear();
+    }
+
+    /// A corner that turns inwards, or not at all, and lies in the triangle that would be cut off.
+    std::optional<std::uint32_t> findBlocker(std::uint32_t i) const {
+        const Corner& corner = corners_[i];
+        return tree_.findIn(points_[corner.previous], points_[i], points_[corner.next]);
+    }
+
+    void updateEar(std::uint32_t i) {
+        ears_.erase(i);
+        const std::uint32_t before = blocker_[i];
+        blocker_[i] = kNone;
+        if (corners_[i].turn <= 0.0) return;
+        if (const auto blocker = findBlocker(i)) {
+            blocker_[i] = *blocker;
+            if (*blocker != before) blocks_[*blocker].push_back(i);
+        } else {
+            ears_.insert(i);
+        }
+    }
+
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    const std::vector<glm::dvec2>& points_;
+    PointTree tree_;  ///< of the corners that turn inwards or not at all
+    std::uint32_t count_;
+    std::vector<Corner> corners_;
+    std::set<std::uint32_t> ears_, straight_;
+    std::vector<std::uint32_t> blocker_;              ///< per corner: what keeps it from being an ear
+    std::vector<std::vector<std::uint32_t>> blocks_;  ///< per corner: those it is, or was, the blocker of
+    std::vector<std::uint32_t> retry_;
+};
+
+}  // namespace
+
+void clipEars(const std::vector<glm::dvec2>& points, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    EarClipper(points).run(triangles);
+}
+
+}  // namespace duolux
