@@ -12,6 +12,7 @@
 #include "host/app/commands.h"
 #include "host/app/info_json.h"
 #include "host/app/machine_options.h"
+#include "host/app/options.h"
 #include "host/app/view_options.h"
 #include "host/base/printable.h"
 #include "host/base/utf8.h"
@@ -24,6 +25,13 @@ namespace {
 
 std::string toText(const glm::dvec3& v) {
     return fmt::format("{:.6g}, {:.6g}, {:.6g}", v.x, v.y, v.z);
+}
+
+/// A place in the coordinates of the file.
+std::string toText(const Scene& scene, const glm::vec3& place) {
+    if (scene.origin == glm::dvec3(0.0)) return toText(place);
+    const glm::dvec3 v = scene.origin + glm::dvec3(place);
+    return fmt::format("{:.10g}, {:.10g}, {:.10g}", v.x, v.y, v.z);
 }
 
 /// One number if the channels agree.
@@ -81,12 +89,12 @@ void printGeometry(const Scene& scene) {
         printField("smooth", fmt::format("{} triangles have shading normals",
                                          withSeparators(smoothTriangles(geometry))));
     }
-    printField("bounds", fmt::format("{}  to  {}", toText(bounds.lower), toText(bounds.upper)));
+    printField("bounds", fmt::format("{}  to  {}", toText(scene, bounds.lower), toText(scene, bounds.upper)));
     printField("memory", fmt::format("{} of geometry on the host", bytes(memoryOf(geometry))));
 }
 
 void printView(const Scene& scene) {
-    printField("camera", cameraJson(scene.camera));
+    printField("camera", cameraJson(scene));
     printField("picture",
                fmt::format("{}x{}, {} spp, {} bounces, seed {}", scene.render.width, scene.render.height,
                            scene.render.spp, scene.render.bounces, scene.render.seed));
@@ -152,15 +160,19 @@ void addInfoCommand(CLI::App& app) {
     struct Options {
         std::string scene;
         ViewOptions view;
-        bool json = false;
+        bool json = false, strict = false;
     };
     const auto options = std::make_shared<Options>();
     command->add_option("SCENE", options->scene, "An .obj or .json scene")->required();
     addViewOptions(*command, options->view);
+    addStrictOption(*command, options->strict);
     addThreadsOption(*command);
     command->add_flag("--json", options->json, "As JSON, for scripts");
     command->callback([options] {
-        const Scene scene = loadScene(options->scene, options->view.choices());
+        SceneChoices choices = options->view.choices();
+        if (options->strict) choices.reading = Reading::kStrict;
+        Scene scene = loadScene(options->scene, choices);
+        removeLamp(scene);
         if (options->json) {
             fmt::print("{}\n", infoJson(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         } else {

@@ -28,9 +28,20 @@ Json toJson(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-Json toJson(const Camera& camera) {
-    return {{"position", toJson(camera.position)},
-            {"target", toJson(camera.target)},
+/// A place in the coordinates of the file.
+Json placeJson(const Scene& scene, const glm::vec3& place) {
+    if (scene.origin == glm::dvec3(0.0)) return toJson(place);
+    const glm::dvec3 there = scene.origin + glm::dvec3(place);
+    Json result = Json::array();
+    for (int i = 0; i < 3; ++i)  // the digits that the float has
+        result.push_back(std::strtod(fmt::format("{:.12g}", there[i]).c_str(), nullptr));
+    return result;
+}
+
+Json cameraOf(const Scene& scene) {
+    const Camera& camera = scene.camera;
+    return {{"position", placeJson(scene, camera.position)},
+            {"target", placeJson(scene, camera.target)},
             {"up", toJson(camera.up)},
             {"vfov", number(camera.vfov)}};
 }
@@ -63,9 +74,9 @@ Json materialsOf(const Scene& scene) {
 
 }  // namespace
 
-std::string cameraJson(const Camera& camera) {
+std::string cameraJson(const Scene& scene) {
     std::string text;
-    for (const char c : toJson(camera).dump()) {
+    for (const char c : cameraOf(scene).dump()) {
         text += c;
         if (c == ',' || c == ':') text += ' ';
     }
@@ -119,9 +130,9 @@ Json infoJson(const Scene& scene) {
     info["triangles"] = geometry.triangles.size();
     info["vertices"] = geometry.positions.size();
     info["smooth_triangles"] = smoothTriangles(geometry);
-    info["bounds"] = {{"lower", toJson(bounds.lower)}, {"upper", toJson(bounds.upper)}};
+    info["bounds"] = {{"lower", placeJson(scene, bounds.lower)}, {"upper", placeJson(scene, bounds.upper)}};
     info["geometry_bytes"] = memoryOf(geometry);
-    info["camera"] = toJson(scene.camera);
+    info["camera"] = cameraOf(scene);
     info["film"] = {{"width", scene.render.width}, {"height", scene.render.height}};
     info["render"] = {{"spp", scene.render.spp},
                       {"bounces", scene.render.bounces},

@@ -10,8 +10,8 @@ namespace duolux {
 /// All that `duolux info` tells of a scene, for scripts.
 nlohmann::ordered_json infoJson(const Scene& scene);
 
-/// A camera as scene files give it, on one line.
-std::string cameraJson(const Camera& camera);
+/// The camera as scene files give it, on one line.
+std::string cameraJson(const Scene& scene);
 
 /// Bytes of geometry on the host.
 std::size_t memoryOf(const Geometry& geometry);

@@ -86,6 +86,12 @@ CLI::Validator notEmpty() {
         "");
 }
 
+void addStrictOption(CLI::App& command, bool& strict) {
+    command.add_flag("--strict", strict,
+                     "Refuse scene files with errors that do not matter, such as missing normals (default: "
+                     "warn of them)");
+}
+
 std::string describeParseError(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<const CLI::App*> parsed =
         app.get_subcommands(static_cast<const std::function<bool(const CLI::App*)>&>(

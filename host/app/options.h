@@ -31,6 +31,9 @@ CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);
 /// Refuses an empty text, such as a script's variable that was never set.
 CLI::Validator notEmpty();
 
+/// Adds --strict, which refuses scene files that are not quite right, to a command. `strict` must outlive it.
+void addStrictOption(CLI::App& command, bool& strict);
+
 /// The line for an error of the command line's syntax.
 std::string describeParseError(const CLI::App& app, const CLI::ParseError& error);
 

@@ -47,6 +47,7 @@ struct RenderOptions {
     ViewOptions view;
     float exposure = 0.0f;
     bool quiet = false;
+    bool strict = false;
 };
 
 Reflectance parseBlend(const std::string& text) {
@@ -231,7 +232,8 @@ void runRender(const RenderOptions& options) {
     checkOutputs(files,
                  {options.scene, isSameFile(options.resume, options.checkpoint) ? "" : options.resume});
     const Overrides overrides = parseOverrides(options);
-    const SceneChoices choices = overrides.choices(options);
+    SceneChoices choices = overrides.choices(options);
+    if (options.strict) choices.reading = Reading::kStrict;
 
     StageSeconds seconds;
     Scene scene = loadScene(options.scene, choices);
@@ -432,6 +434,7 @@ void addRenderCommand(CLI::App& app) {
         ->add_option("--report", options->report,
                      "Write statistics as JSON to this file (-: standard output)")
         ->type_name("FILE");
+    addStrictOption(*command, options->strict);
     command->add_flag("--quiet", options->quiet, "No progress on standard error");
     command->allow_extras();
     command->callback([options, command] {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,21 +16,24 @@ namespace duolux {
 
 namespace {
 
-bool sameEmission(const Emission& a, const Emission& b) {
-    return a.invisible == b.invisible && a.visible == b.visible && a.sides == b.sides;
+template <typename T>
+void appendBytes(std::string& key, const T& value) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-bool sameMaterial(const Material& a, const Material& b) {
-    return a.name == b.name && a.diffuse == b.diffuse && a.sides == b.sides &&
-           sameEmission(a.emission, b.emission) && a.reflectance == b.reflectance;
-}
-
-std::uint32_t addMaterial(Scene& scene, const Material& material) {
-    const auto same = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                   [&](const Material& other) { return sameMaterial(material, other); });
-    const auto index = static_cast<std::uint32_t>(same - scene.materials.begin());
-    if (same == scene.materials.end()) scene.materials.push_back(material);
-    return index;
+/// All that a material is, as a key.
+std::string keyOf(const Material& material) {
+    std::string key;
+    appendBytes(key, material.diffuse);
+    appendBytes(key, material.sides);
+    appendBytes(key, material.emission.invisible);
+    appendBytes(key, material.emission.visible);
+    appendBytes(key, material.emission.sides);
+    if (material.reflectance) {
+        appendBytes(key, material.reflectance->opaque);
+        appendBytes(key, material.reflectance->transparent);
+    }
+    return key + material.name;
 }
 
 void appendGeometry(Geometry& to, Geometry from) {
@@ -46,7 +50,6 @@ void appendGeometry(Geometry& to, Geometry from) {
     to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
     to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
     to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
-    to.triangles.reserve(to.triangles.size() + from.triangles.size());
     for (const glm::uvec3& triangle : from.triangles)
         to.triangles.push_back(triangle + firstPosition);
     for (const glm::uvec3& indices : from.normalIndices) {
@@ -87,39 +90,90 @@ bool transformGeometry(Geometry& geometry, const glm::dmat4& transform) {
     return inRange;
 }
 
-void appendMesh(Scene& scene, Mesh mesh) {
+bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneOrigin) {
+    glm::dmat4 local = transform;
+    local[3] = transform * glm::dvec4(mesh.origin, 1.0) - glm::dvec4(sceneOrigin, 0.0);
+    mesh.origin = sceneOrigin;
+    return local == glm::dmat4(1.0) || transformGeometry(mesh.geometry, local);
+}
+
+Composer::Composer(Scene& scene) : scene_(scene) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        materials_.try_emplace(keyOf(scene.materials[i]), static_cast<std::uint32_t>(i));
+}
+
+std::uint32_t Composer::indexOf(const Material& material) {
+    const auto next = static_cast<std::uint32_t>(scene_.materials.size());
+    const auto [entry, isNew] = materials_.try_emplace(keyOf(material), next);
+    if (isNew) scene_.materials.push_back(material);
+    return entry->second;
+}
+
+void Composer::append(Mesh mesh) {
+    assert(mesh.origin == scene_.origin);
     constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-    if (scene.geometry.triangles.size() + mesh.geometry.triangles.size() > kMost ||
-        scene.geometry.positions.size() + mesh.geometry.positions.size() > kMost) {
-        throw InputError(scene.source.string(), "", "is too large",
+    if (scene_.geometry.triangles.size() + mesh.geometry.triangles.size() > kMost ||
+        scene_.geometry.positions.size() + mesh.geometry.positions.size() > kMost) {
+        throw InputError(scene_.source.string(), "", "is too large",
                          "expected fewer than 2^31 triangles and vertices");
     }
     const std::size_t all = mesh.geometry.triangles.size();
     if (const std::size_t dropped = dropDegenerateTriangles(mesh.geometry); dropped > 0) {
-        mesh.warnings.push_back(
-            fmt::format("{}: {} of {} triangles left out: zero area", mesh.source.string(), dropped, all));
+        LeftOut& leftOut = leftOut_[mesh.source];
+        leftOut.dropped += dropped;
+        leftOut.all += all;
     }
     std::vector<std::uint32_t> indices;
     for (const Material& material : mesh.materials)
-        indices.push_back(addMaterial(scene, material));
+        indices.push_back(indexOf(material));
     for (std::uint32_t& material : mesh.geometry.materials)
         material = indices[material];
-    appendGeometry(scene.geometry, std::move(mesh.geometry));
-    scene.meshBytes += mesh.bytes;
-    scene.files.insert(scene.files.end(), mesh.files.begin(), mesh.files.end());
+    appendGeometry(scene_.geometry, std::move(mesh.geometry));
+    scene_.meshBytes += mesh.bytes;
+    scene_.files.insert(scene_.files.end(), mesh.files.begin(), mesh.files.end());
     for (std::string& warning : mesh.warnings)
-        scene.warnings.push_back(std::move(warning));
+        scene_.warnings.push_back(std::move(warning));
 }
 
-void appendRectangle(Scene& scene, const Rectangle& rectangle, const Material& material) {
+void Composer::append(const Rectangle& rectangle, const Material& material) {
     Mesh mesh;
-    mesh.source = scene.source;
+    mesh.source = scene_.source;
+    mesh.origin = scene_.origin;
     const auto& [origin, edge1, edge2] = rectangle;
     mesh.geometry.positions = {origin, origin + edge1, origin + edge1 + edge2, origin + edge2};
     mesh.geometry.triangles = {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)};
     mesh.geometry.materials = {0, 0};
     mesh.materials = {material};
-    appendMesh(scene, std::move(mesh));
+    append(std::move(mesh));
+}
+
+void Composer::finish() {
+    for (const auto& [source, leftOut] : leftOut_) {
+        scene_.warnings.push_back(fmt::format("{}: {} of {} triangles left out: zero area", source.string(),
+                                              leftOut.dropped, leftOut.all));
+    }
+    leftOut_.clear();
+}
+
+void appendMesh(Scene& scene, Mesh mesh) {
+    Composer composer(scene);
+    composer.append(std::move(mesh));
+    composer.finish();
+}
+
+void appendRectangle(Scene& scene, const Rectangle& rectangle, const Material& material) {
+    Composer composer(scene);
+    composer.append(rectangle, material);
+    composer.finish();
+}
+
+void setOrigin(Scene& scene, const glm::dvec3& origin) {
+    scene.origin = origin;
+    if (origin == glm::dvec3(0.0)) return;
+    scene.warnings.push_back(
+        fmt::format("{}: coordinates are far from the origin for their extent: they are used less {:.10g}, "
+                    "{:.10g}, {:.10g}",
+                    scene.source.string(), origin.x, origin.y, origin.z));
 }
 
 std::size_t dropDegenerateTriangles(Geometry& geometry) {

@@ -87,6 +87,10 @@ std::string hashScene(const Scene& scene) {
         hasher.add(static_cast<std::uint64_t>(material.emission.sides));
         hasher.add(scene.reflectanceOf(material));
     }
+    if (scene.origin != glm::dvec3(0.0)) {
+        for (int i = 0; i < 3; ++i)
+            hasher.add(std::bit_cast<std::uint64_t>(scene.origin[i]));
+    }
     hasher.add(scene.camera.position);
     hasher.add(scene.camera.target);
     hasher.add(scene.camera.up);

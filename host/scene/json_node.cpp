@@ -84,11 +84,11 @@ bool JsonNode::isArray() const {
     return value_->is_array();
 }
 
-float JsonNode::number(float low, float high, std::string_view remedy) const {
+double JsonNode::number(double low, double high, std::string_view remedy) const {
     if (!value_->is_number()) failValue(remedy);
     const double number = value_->get<double>();
-    if (!(number >= static_cast<double>(low) && number <= static_cast<double>(high))) failValue(remedy);
-    return static_cast<float>(number);
+    if (!(number >= low && number <= high)) failValue(remedy);
+    return number;
 }
 
 std::uint32_t JsonNode::integer(std::uint32_t low, std::uint32_t high) const {
@@ -113,17 +113,17 @@ std::size_t JsonNode::choice(std::span<const std::string> names) const {
     failValue(suggestName(chosen, names));
 }
 
-glm::vec3 JsonNode::vector(float low, float high, std::string_view remedy) const {
-    glm::vec3 result;
+glm::dvec3 JsonNode::vector(double low, double high, std::string_view remedy) const {
+    glm::dvec3 result;
     const std::vector<JsonNode> numbers = elements(remedy, 3);
     for (int i = 0; i < 3; ++i)
         result[i] = numbers[static_cast<std::size_t>(i)].number(low, high, remedy);
     return result;
 }
 
-glm::vec3 JsonNode::colour(float low, float high, std::string_view remedy) const {
-    if (isArray()) return vector(low, high, remedy);
-    return glm::vec3(number(low, high, remedy));
+glm::vec3 JsonNode::colour(double low, double high, std::string_view remedy) const {
+    return isArray() ? glm::vec3(vector(low, high, remedy))
+                     : glm::vec3(glm::dvec3(number(low, high, remedy)));
 }
 
 }  // namespace duolux

@@ -39,16 +39,16 @@ class JsonNode {
 
     bool isArray() const;
     /// A finite number in [low, high].
-    float number(float low, float high, std::string_view remedy) const;
+    double number(double low, double high, std::string_view remedy) const;
     /// A whole number in [low, high].
     std::uint32_t integer(std::uint32_t low, std::uint32_t high) const;
     const std::string& text(std::string_view remedy) const;
     /// Index of one of the names.
     std::size_t choice(std::span<const std::string> names) const;
     /// Three numbers in [low, high].
-    glm::vec3 vector(float low, float high, std::string_view remedy) const;
+    glm::dvec3 vector(double low, double high, std::string_view remedy) const;
     /// Three numbers in [low, high], or one for all channels.
-    glm::vec3 colour(float low, float high, std::string_view remedy) const;
+    glm::vec3 colour(double low, double high, std::string_view remedy) const;
 
     [[noreturn]] void fail(std::string_view problem, std::string_view remedy) const;
     /// "is VALUE; REMEDY".

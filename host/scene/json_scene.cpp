@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "host/scene/json_text.h"
 #include "host/scene/mesh.h"
 #include "host/scene/nearest_name.h"
+#include "host/scene/origin.h"
 
 namespace duolux {
 
@@ -32,8 +34,10 @@ const std::string& pointRemedy() {
     return kRemedy;
 }
 
-glm::vec3 readPoint(const JsonNode& node) {
-    return node.vector(-kLargestCoordinate, kLargestCoordinate, pointRemedy());
+/// A place or a direction.
+glm::dvec3 readPoint(const JsonNode& node) {
+    const auto largest = static_cast<double>(kLargestCoordinate);
+    return node.vector(-largest, largest, pointRemedy());
 }
 
 /// The sine of the angle between two vectors, 0 if one of them is 0.
@@ -50,7 +54,7 @@ CameraChoice readCamera(const JsonNode& node) {
     if (const auto up = node.find("up")) camera.up = readPoint(*up);
     if (const auto vfov = node.find("vfov")) {
         const char* const remedy = "expected the full vertical angle in degrees, between 0 and 180";
-        camera.vfov = vfov->number(0.0f, 180.0f, remedy);
+        camera.vfov = static_cast<float>(vfov->number(0.0, 180.0, remedy));
         if (*camera.vfov <= 0.0f || *camera.vfov >= 180.0f) vfov->failValue(remedy);
     }
     if (const auto wrong = camera.contradiction()) node.fail(wrong->problem, wrong->remedy);
@@ -82,19 +86,21 @@ void readRender(const JsonNode& node, RenderSettings& render) {
 }
 
 glm::vec2 readDisplay(const JsonNode& node) {
-    constexpr float kLargest = 1e6f;
+    constexpr double kLargest = 1e6;
     const char* const remedy = "expected [invisible, visible], the two weights of the displayed radiance";
     const std::vector<JsonNode> row = node.elements(remedy, 2);
-    return {row[0].number(-kLargest, kLargest, remedy), row[1].number(-kLargest, kLargest, remedy)};
+    return {static_cast<float>(row[0].number(-kLargest, kLargest, remedy)),
+            static_cast<float>(row[1].number(-kLargest, kLargest, remedy))};
 }
 
 glm::dmat4 readTransform(const JsonNode& node) {
     const char* const remedy = "expected 16 numbers, a 4x4 matrix row by row";
+    const auto largest = static_cast<double>(kLargestCoordinate);
     const std::vector<JsonNode> entries = node.elements(remedy, 16);
     glm::dmat4 matrix;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const int row = static_cast<int>(i / 4), column = static_cast<int>(i % 4);
-        matrix[column][row] = entries[i].number(-kLargestCoordinate, kLargestCoordinate, remedy);
+        matrix[column][row] = entries[i].number(-largest, largest, remedy);
     }
     if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]) !=
         glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
@@ -105,25 +111,6 @@ glm::dmat4 readTransform(const JsonNode& node) {
     }
     return matrix;
 }
-
-/// Reads each mesh file once, however many objects use it.
-class MeshCache {
-  public:
-    Mesh take(const fs::path& path) {
-        const auto [entry, isNew] = meshes_.try_emplace(path);
-        if (isNew) {
-            entry->second = loadObj(path);
-        } else {
-            entry->second.warnings.clear();
-            entry->second.bytes = 0;
-            entry->second.files.clear();
-        }
-        return entry->second;
-    }
-
-  private:
-    std::map<fs::path, Mesh> meshes_;
-};
 
 fs::path readMeshPath(const JsonNode& node) {
     const char* const remedy = "expected the path of an .obj file, relative to the scene file";
@@ -138,64 +125,128 @@ fs::path readMeshPath(const JsonNode& node) {
     return file;
 }
 
-void readObjects(const JsonNode& node, Scene& scene) {
-    const std::vector<JsonNode> objects = node.elements("expected an array of objects");
-    MeshCache cache;
-    for (const JsonNode& object : objects) {
+/// What "objects" and "lights" hold, in the coordinates of the files, until the scene's origin is known.
+struct Contents {
+    struct Object {
+        JsonNode node;
+        std::size_t mesh;
+        std::optional<glm::dmat4> transform;
+    };
+    struct Light {
+        glm::dvec3 corner;
+        glm::vec3 edge1, edge2;
+        Material material;
+    };
+    std::vector<Mesh> meshes;  ///< each file once, however many objects use it
+    std::vector<Object> objects;
+    std::vector<Light> lights;
+};
+
+void readObjects(const JsonNode& node, Reading reading, Contents& contents) {
+    std::map<fs::path, std::size_t> meshes;
+    for (const JsonNode& object : node.elements("expected an array of objects")) {
         object.expectKeys({"mesh", "transform"});
         const fs::path path = readMeshPath(object.require("mesh", "expected the path of an .obj file"));
         const std::optional<JsonNode> transform = object.find("transform");
-        const glm::dmat4 matrix = transform ? readTransform(*transform) : glm::dmat4(1.0);
-        Mesh mesh = objects.size() == 1 ? loadObj(path) : cache.take(path);
-        if (transform && !transformGeometry(mesh.geometry, matrix)) {
-            transform->fail(
-                "moves the mesh out of range",
-                fmt::format("expected coordinates of at most {:g} in magnitude", kLargestCoordinate));
-        }
-        appendMesh(scene, std::move(mesh));
+        std::optional<glm::dmat4> matrix;
+        if (transform) matrix = readTransform(*transform);
+        const auto [mesh, isNew] = meshes.try_emplace(path, contents.meshes.size());
+        if (isNew) contents.meshes.push_back(loadObj(path, reading));
+        contents.objects.push_back({transform.value_or(object), mesh->second, matrix});
     }
 }
 
-void readMaterials(const JsonNode& node, Scene& scene) {
-    for (const auto& [name, overrides] : node.members()) {
-        bool found = false;
-        for (Material& material : scene.materials) {
-            if (material.name != name) continue;
-            readMaterial(overrides, material);
-            found = true;
-        }
-        if (found) continue;
-        std::set<std::string> names;
-        for (const Material& material : scene.materials)
-            names.insert(material.name);
-        const std::vector<std::string> known(names.begin(), names.end());
-        overrides.fail("no mesh has a material of this name", suggestName(name, known));
-    }
-}
-
-void readLight(const JsonNode& node, Scene& scene) {
+void readLight(const JsonNode& node, Contents& contents) {
     constexpr double kSmallestSine = 1e-6;
     node.expectKeys({"type", "origin", "edge1", "edge2", "emission", "reflectance"});
     static const std::array<std::string, 1> kTypes{"rectangle"};
     node.require("type", "expected \"rectangle\"").choice(kTypes);
-    const Rectangle rectangle{readPoint(node.require("origin", pointRemedy())),
-                              readPoint(node.require("edge1", pointRemedy())),
-                              readPoint(node.require("edge2", pointRemedy()))};
-    if (sineBetween(rectangle.edge1, rectangle.edge2) < kSmallestSine) {
+    Contents::Light light{readPoint(node.require("origin", pointRemedy())),
+                          glm::vec3(readPoint(node.require("edge1", pointRemedy()))),
+                          glm::vec3(readPoint(node.require("edge2", pointRemedy()))),
+                          {}};
+    if (sineBetween(light.edge1, light.edge2) < kSmallestSine) {
         node.fail("edge1 and edge2 span no area", "expected two directions across each other");
     }
-    Material material;
+    Material& material = light.material;
     material.name = node.path();
     material.diffuse = glm::vec3(0.0f);
     readEmission(node.require("emission", R"(expected {"invisible": c, "visible": c})"), material.emission);
     if (const auto reflectance = node.find("reflectance"))
         material.reflectance = readReflectance(*reflectance);
-    appendRectangle(scene, rectangle, material);
+    contents.lights.push_back(std::move(light));
+}
+
+/// Of all objects (by the corners of their bounds) and lights.
+WideBounds boundsOf(const Contents& contents) {
+    std::vector<Bounds> meshBounds;
+    for (const Mesh& mesh : contents.meshes)
+        meshBounds.push_back(boundsOf(mesh.geometry));
+    WideBounds bounds;
+    for (const auto& [node, mesh, transform] : contents.objects) {
+        const auto& [lower, upper] = meshBounds[mesh];
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 position(corner & 1 ? lower.x : upper.x, corner & 2 ? lower.y : upper.y,
+                                     corner & 4 ? lower.z : upper.z);
+            const glm::dvec3 placed = contents.meshes[mesh].origin + glm::dvec3(position);
+            bounds.add(transform ? glm::dvec3(*transform * glm::dvec4(placed, 1.0)) : placed);
+        }
+    }
+    for (const auto& [corner, edge1, edge2, material] : contents.lights) {
+        for (const glm::vec3& edge : {glm::vec3(0.0f), edge1, edge2, edge1 + edge2})
+            bounds.add(corner + glm::dvec3(edge));
+    }
+    return bounds;
+}
+
+void appendObjects(Contents& contents, Scene& scene) {
+    Composer composer(scene);
+    std::vector<std::size_t> uses(contents.meshes.size(), 0);
+    for (const Contents::Object& object : contents.objects)
+        ++uses[object.mesh];
+    for (const auto& [node, index, transform] : contents.objects) {
+        Mesh& read = contents.meshes[index];
+        Mesh mesh = --uses[index] == 0 ? std::move(read) : read;
+        read.warnings.clear();
+        read.bytes = 0;
+        read.files.clear();
+        if (!placeMesh(mesh, transform.value_or(glm::dmat4(1.0)), scene.origin)) {
+            node.fail("moves the mesh out of range",
+                      fmt::format("expected coordinates of at most {:g} in magnitude", kLargestCoordinate));
+        }
+        composer.append(std::move(mesh));
+    }
+    composer.finish();
+}
+
+void appendLights(const Contents& contents, Scene& scene) {
+    Composer composer(scene);
+    for (const auto& [corner, edge1, edge2, material] : contents.lights)
+        composer.append({glm::vec3(corner - scene.origin), edge1, edge2}, material);
+    composer.finish();
+}
+
+void readMaterials(const JsonNode& node, Scene& scene) {
+    std::unordered_map<std::string, std::vector<std::size_t>> byName;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        byName[scene.materials[i].name].push_back(i);
+    for (const auto& [name, overrides] : node.members()) {
+        const auto found = byName.find(name);
+        if (found == byName.end()) {
+            std::set<std::string> names;
+            for (const Material& material : scene.materials)
+                names.insert(material.name);
+            const std::vector<std::string> known(names.begin(), names.end());
+            overrides.fail("no mesh has a material of this name", suggestName(name, known));
+        }
+        for (const std::size_t material : found->second)
+            readMaterial(overrides, scene.materials[material]);
+    }
 }
 
 }  // namespace
 
-SceneFile readJsonScene(const fs::path& path) {
+SceneFile readJsonScene(const fs::path& path, Reading reading) {
     const nlohmann::json document = parseJsonFile(path);
     const JsonNode root(document, path);
     root.expectKeys(
@@ -213,14 +264,18 @@ SceneFile readJsonScene(const fs::path& path) {
     if (const auto display = root.find("display")) scene.display = readDisplay(*display);
     const auto reflectance = root.find("reflectance");
     scene.reflectance = reflectance ? readReflectance(*reflectance) : *presetReflectance("global");
-    if (const auto objects = root.find("objects")) readObjects(*objects, scene);
-    if (const auto materials = root.find("materials")) readMaterials(*materials, scene);
-    const std::size_t meshTriangles = scene.geometry.triangles.size();
+    Contents contents;
+    if (const auto objects = root.find("objects")) readObjects(*objects, reading, contents);
     const auto lights = root.find("lights");
     if (lights) {
         for (const JsonNode& light : lights->elements("expected an array of lights"))
-            readLight(light, scene);
+            readLight(light, contents);
     }
+    setOrigin(scene, originFor(boundsOf(contents)));
+    appendObjects(contents, scene);
+    if (const auto materials = root.find("materials")) readMaterials(*materials, scene);
+    const std::size_t meshTriangles = scene.geometry.triangles.size();
+    appendLights(contents, scene);
     if (scene.geometry.triangles.empty()) {
         root.fail("has no triangles with area", "expected \"objects\" with meshes, or \"lights\"");
     }

@@ -5,6 +5,7 @@
 
 #include "host/scene/camera_choice.h"
 #include "host/scene/scene.h"
+#include "host/scene/tally.h"
 
 namespace duolux {
 
@@ -19,6 +20,6 @@ struct SceneFile {
 
 /// Reads the JSON scene format and the meshes it names. Luminaires given apart from meshes may be out of the
 /// picture. Throws InputError.
-SceneFile readJsonScene(const std::filesystem::path& path);
+SceneFile readJsonScene(const std::filesystem::path& path, Reading reading);
 
 }  // namespace duolux

@@ -12,7 +12,7 @@ namespace duolux {
 
 namespace {
 
-constexpr float kLargestFactor = 1e6f;
+constexpr double kLargestFactor = 1e6;
 
 LightMatrix readMatrix(const JsonNode& node) {
     const char* const shape = "expected [[m00, m01], [m10, m11]]";
@@ -20,9 +20,8 @@ LightMatrix readMatrix(const JsonNode& node) {
     const std::vector<JsonNode> rows = node.elements(shape, 2);
     const std::vector<JsonNode> invisible = rows[0].elements(shape, 2);
     const std::vector<JsonNode> visible = rows[1].elements(shape, 2);
-    return {invisible[0].colour(0.0f, kLargestFactor, entry),
-            invisible[1].colour(0.0f, kLargestFactor, entry), visible[0].colour(0.0f, kLargestFactor, entry),
-            visible[1].colour(0.0f, kLargestFactor, entry)};
+    return {invisible[0].colour(0.0, kLargestFactor, entry), invisible[1].colour(0.0, kLargestFactor, entry),
+            visible[0].colour(0.0, kLargestFactor, entry), visible[1].colour(0.0, kLargestFactor, entry)};
 }
 
 Reflectance readPreset(const JsonNode& node) {
@@ -36,7 +35,8 @@ Reflectance readPreset(const JsonNode& node) {
 Reflectance readBlend(const JsonNode& node) {
     const std::string remedy = "expected [t, o], two numbers from 0 to 1";
     const std::vector<JsonNode> point = node.elements(remedy, 2);
-    return blendReflectance(point[0].number(0.0f, 1.0f, remedy), point[1].number(0.0f, 1.0f, remedy));
+    return blendReflectance(static_cast<float>(point[0].number(0.0, 1.0, remedy)),
+                            static_cast<float>(point[1].number(0.0, 1.0, remedy)));
 }
 
 Sides readSides(const JsonNode& node) {
@@ -69,10 +69,10 @@ void readEmission(const JsonNode& node, Emission& emission) {
         fmt::format("expected a radiance: a number or [r, g, b], from 0 to {:g}", kLargestRadiance);
     node.expectKeys({"invisible", "visible", "sides"});
     if (const auto invisible = node.find("invisible")) {
-        emission.invisible = invisible->colour(0.0f, kLargestRadiance, remedy);
+        emission.invisible = invisible->colour(0.0, kLargestRadiance, remedy);
     }
     if (const auto visible = node.find("visible"))
-        emission.visible = visible->colour(0.0f, kLargestRadiance, remedy);
+        emission.visible = visible->colour(0.0, kLargestRadiance, remedy);
     if (const auto sides = node.find("sides")) emission.sides = readSides(*sides);
 }
 
@@ -80,7 +80,7 @@ void readMaterial(const JsonNode& node, Material& material) {
     node.expectKeys({"diffuse", "emission", "reflectance", "sides"});
     if (const auto diffuse = node.find("diffuse")) {
         material.diffuse =
-            diffuse->colour(0.0f, 1.0f, "expected an albedo: a number or [r, g, b], from 0 to 1");
+            diffuse->colour(0.0, 1.0, "expected an albedo: a number or [r, g, b], from 0 to 1");
     }
     if (const auto emission = node.find("emission")) readEmission(*emission, material.emission);
     if (const auto reflectance = node.find("reflectance"))

@@ -12,6 +12,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/printable.h"
+#include "host/scene/file_kind.h"
 
 namespace duolux {
 
@@ -19,35 +20,32 @@ namespace {
 
 using nlohmann::json;
 
-/// Follows the parser through the document: where it is, and which keys each open object has had.
-class KeyWatch {
+/// Follows a parser through the document: where it is, and which keys each open object has had. (json::parse
+/// has a callback for this, with which it takes time by the square of an object's members.)
+class KeyWatch : public nlohmann::json_sax<json> {
   public:
     explicit KeyWatch(std::string file) : file_(std::move(file)) {}
 
-    bool operator()(int, json::parse_event_t event, json& parsed) {
-        switch (event) {
-            case json::parse_event_t::object_start:
-                beginElement();
-                open_.push_back({});
-                break;
-            case json::parse_event_t::array_start:
-                beginElement();
-                open_.push_back({});
-                open_.back().isArray = true;
-                break;
-            case json::parse_event_t::object_end:
-            case json::parse_event_t::array_end:
-                open_.pop_back();
-                break;
-            case json::parse_event_t::key:
-                open_.back().key = parsed.get<std::string>();
-                if (!open_.back().keys.insert(open_.back().key).second) {
-                    throw InputError(file_, path(), "the key appears twice", "expected it once");
-                }
-                break;
-            case json::parse_event_t::value:
-                beginElement();
-                break;
+    bool null() override { return beginElement(); }
+    bool boolean(bool) override { return beginElement(); }
+    bool number_integer(number_integer_t) override { return beginElement(); }
+    bool number_unsigned(number_unsigned_t) override { return beginElement(); }
+    bool number_float(number_float_t, const string_t&) override { return beginElement(); }
+    bool string(string_t&) override { return beginElement(); }
+    bool binary(binary_t&) override { return beginElement(); }
+    bool start_object(std::size_t) override { return open(false); }
+    bool start_array(std::size_t) override { return open(true); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    /// What is wrong is for json::parse to tell.
+    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+        return false;
+    }
+
+    bool key(string_t& key) override {
+        open_.back().key = key;
+        if (!open_.back().keys.insert(key).second) {
+            throw InputError(file_, path(), "the key appears twice", "expected it once");
         }
         return true;
     }
@@ -60,8 +58,20 @@ class KeyWatch {
         std::set<std::string> keys;
     };
 
-    void beginElement() {
+    bool beginElement() {
         if (!open_.empty()) ++open_.back().elements;
+        return true;
+    }
+
+    bool open(bool isArray) {
+        beginElement();
+        open_.emplace_back().isArray = isArray;
+        return true;
+    }
+
+    bool close() {
+        open_.pop_back();
+        return true;
     }
 
     std::string path() const {
@@ -107,8 +117,11 @@ json parseJsonFile(const std::filesystem::path& path) {
         throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty",
                          "expected JSON");
     }
+    expectNoForeignFormat(path, text, "a JSON scene");
     try {
-        return json::parse(text, KeyWatch(path.string()));
+        KeyWatch watch(path.string());
+        json::sax_parse(text, &watch);
+        return json::parse(text);
     } catch (const json::parse_error& e) {
         const std::size_t offset = e.byte == 0 ? 0 : e.byte - 1;
         throw InputError(path.string(), placeOf(text, offset), explanation(e.what()), "expected JSON");

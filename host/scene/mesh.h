@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/scene/scene.h"
+#include "host/scene/tally.h"
 
 namespace duolux {
 
@@ -13,24 +14,26 @@ namespace duolux {
 struct Mesh {
     std::filesystem::path source;
     std::vector<std::filesystem::path> files;  ///< that were read: the mesh and its MTL files
-    Geometry geometry;
+    Geometry geometry;                         ///< its positions are those of the file less `origin`
+    glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
     std::vector<Material> materials;  ///< of its MTL files, used or not, and those that faces name besides
     std::vector<std::string> warnings;
     std::uint64_t bytes = 0;  ///< of the text
 };
 
 /// Name of the material of faces that come before any `usemtl`.
-inline constexpr const char* kDefaultMaterialName = "default";
+inline const std::string kDefaultMaterialName = "default";
 
-/// Coordinates, before and after a transform, must not be larger than this: squared areas then fit a float.
+/// Coordinates, before and after a transform, less the scene's origin, must not be larger than this: squared
+/// areas then fit a float.
 inline constexpr float kLargestCoordinate = 1e9f;
 
-/// Emitted radiance must not be larger than this.
-inline constexpr float kLargestRadiance = 1e12f;
+/// Emitted radiance must not be larger than this. (The nearest float is smaller.)
+inline constexpr double kLargestRadiance = 1e12;
 
 /// Reads Wavefront OBJ: polygons become triangles, normals come from `vn` or, where a face has none, from its
 /// smoothing group. Materials come from the MTL files it names; a missing one is a warning. Throws
 /// InputError.
-Mesh loadObj(const std::filesystem::path& path);
+Mesh loadObj(const std::filesystem::path& path, Reading reading = Reading::kLenient);
 
 }  // namespace duolux

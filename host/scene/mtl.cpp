@@ -1,166 +1,205 @@
 #include "host/scene/mtl.h"
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
-#include <set>
-#include <sstream>
+#include <limits>
 #include <string_view>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/printable.h"
 #include "host/scene/mesh.h"
+#include "host/scene/mtl_unused.h"
 #include "host/scene/source_text.h"
 
 namespace duolux {
 
 namespace {
 
-/// What a check of the text tells about one `newmtl`, beside the values that the parser reads.
-struct Definition {
-    std::string name;
-    std::size_t diffuseAt = 0, emissionAt = 0;  ///< offsets of Kd and Ke
-    bool hasDiffuse = false, hasEmission = false, hasTexture = false;
+/// What is not as it should be, and does not keep a file from being loaded.
+enum class Oddity {
+    kBeforeMaterial,
+    kUnnamed,
+    kDefinedAgain,
+    kColour,
+    kColourCount,
+    kNegative,
+    kAboveOne,
+    kCount
 };
 
-void checkColour(const SourceText& text, std::string_view line, std::string_view keyword) {
-    const char* const begin = text.view().data();
-    const auto offset = static_cast<std::size_t>(line.data() - begin);
-    const std::string remedy = fmt::format("expected \"{} r g b\"", keyword);
-    std::string_view rest = trimmed(line.substr(keyword.size()));
-    int numbers = 0;
-    while (!rest.empty() && rest.front() != '#') {
-        const std::string_view word = firstWord(rest);
-        const char* const end = word.data() + word.size();
-        if (skipDecimalNumber(word.data(), end) != end) {
-            text.fail(
-                {offset, fmt::format("{}: {} is not a finite number", keyword, inQuotes(word)), remedy});
+struct Description {
+    Oddity kind;
+    const char* what;
+    const char* consequence;
+};
+
+constexpr Description kDescriptions[] = {
+    {Oddity::kBeforeMaterial, "a statement before any newmtl", "ignored"},
+    {Oddity::kUnnamed, "newmtl without a name", "what follows it is ignored"},
+    {Oddity::kColour, "a colour that is no finite numbers", "read as if it were absent"},
+    {Oddity::kColourCount, "a colour that is not three numbers",
+     "one number is grey, further ones are 0, a fourth is ignored"},
+    {Oddity::kNegative, "a colour below 0", "read as 0"},
+};
+
+class MtlReader {
+  public:
+    MtlReader(const std::filesystem::path& path, Reading reading)
+        : text_(path, "a Wavefront MTL file"), reading_(reading) {}
+
+    MaterialLibrary run() {
+        const std::string_view all = text_.view();
+        for (std::size_t begin = 0; begin < all.size();) {
+            const std::size_t end = all.find('\n', begin);
+            readLine(trimmed(all.substr(begin, end - begin)));
+            begin = end + 1;
         }
-        if (word.front() == '-' && word.find_first_of("123456789") != std::string_view::npos) {
-            text.fail({offset, fmt::format("{}: {} is negative", keyword, word), "expected numbers >= 0"});
-        }
-        rest = trimmed(rest.substr(word.size()));
-        ++numbers;
+        finishMaterial();
+        if (!anyMaterial_) library_.warnings.push_back(fmt::format("{}: defines no material", text_.file()));
+        warn();
+        return std::move(library_);
     }
-    if (numbers != 3) text.fail({offset, fmt::format("{}: {} numbers", keyword, numbers), remedy});
-}
 
-struct Statements {
-    std::vector<Definition> definitions;
-    std::string text;  ///< the lines that matter
-};
-
-/// Checks the statements that are used, so that the parser can only read them one way.
-Statements checkStatements(const SourceText& text) {
-    Statements statements;
-    std::vector<Definition>& definitions = statements.definitions;
-    const std::string_view all = text.view();
-    for (std::size_t begin = 0; begin < all.size();) {
-        const std::size_t end = all.find('\n', begin);
-        const std::string_view line = trimmed(all.substr(begin, end - begin));
-        begin = end + 1;
+  private:
+    void readLine(std::string_view line) {
         const std::string_view keyword = firstWord(line);
-        const auto offset = static_cast<std::size_t>(line.data() - all.data());
-        if (keyword == "newmtl") {
-            definitions.emplace_back().name = trimmed(line.substr(keyword.size()));
-            if (definitions.back().name.empty())
-                text.fail({offset, "names no material", "expected \"newmtl NAME\""});
-        } else if (keyword == "Kd" || keyword == "Ke" || keyword == "map_Kd") {
-            if (definitions.empty()) {
-                text.fail(
-                    {offset, fmt::format("{} before any newmtl", keyword), "expected \"newmtl NAME\" first"});
+        const std::string_view arguments = trimmed(line.substr(keyword.size()));
+        if (keyword.empty() || keyword.front() == '#') return;
+        if (keyword == "newmtl") return begin(line, arguments);
+        const bool isColour = keyword == "Kd" || keyword == "Ke";
+        if (!inMaterial_) {
+            const bool matters = isColour || keyword == "map_Kd";
+            if (anyMaterial_) return;  // of one without a name
+            if (reading_ == Reading::kLenient || matters) {
+                tolerate(Oddity::kBeforeMaterial, line, fmt::format("{} before any newmtl", keyword),
+                         "expected \"newmtl NAME\" first");
             }
-            Definition& definition = definitions.back();
-            if (keyword == "map_Kd") {
-                definition.hasTexture = true;
-                continue;
-            }
-            checkColour(text, line, keyword);
-            (keyword == "Kd" ? definition.hasDiffuse : definition.hasEmission) = true;
-            (keyword == "Kd" ? definition.diffuseAt : definition.emissionAt) = offset;
+        } else if (isColour) {
+            readColour(line, keyword, arguments);
         } else {
-            continue;
+            unused_.add(keyword, arguments, offsetOf(line));
         }
-        statements.text += fmt::format("{}\n", line);
     }
-    return statements;
-}
 
-std::vector<tinyobj::material_t> parse(const std::string& text) {
-    std::istringstream stream(text);
-    std::map<std::string, int> indices;
-    std::vector<tinyobj::material_t> materials;
-    std::string warning, error;
-    tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
-    return materials;
-}
-
-glm::vec3 toVec3(const tinyobj::real_t (&values)[3]) {
-    return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
-}
-
-Material toMaterial(const SourceText& text, const Definition& definition, const tinyobj::material_t& parsed) {
-    Material material;
-    material.name = definition.name;
-    if (definition.hasDiffuse) material.diffuse = toVec3(parsed.diffuse);
-    // Written so that it fails for what is not a number, too.
-    if (!glm::all(glm::lessThanEqual(material.diffuse, glm::vec3(kLargestRadiance)))) {
-        text.fail({definition.diffuseAt, "Kd: too large", "expected numbers from 0 to 1"});
+    void begin(std::string_view line, std::string_view name) {
+        finishMaterial();
+        anyMaterial_ = true;
+        inMaterial_ = !name.empty();
+        material_ = Material();
+        material_.name = name;
+        definedAt_ = offsetOf(line);
+        if (name.empty()) tolerate(Oddity::kUnnamed, line, "names no material", "expected \"newmtl NAME\"");
     }
-    if (definition.hasEmission) {
-        const glm::vec3 emission = toVec3(parsed.emission);
-        if (!glm::all(glm::lessThanEqual(emission, glm::vec3(kLargestRadiance)))) {
-            text.fail({definition.emissionAt, "Ke: too large",
-                       fmt::format("expected numbers from 0 to {:g}", kLargestRadiance)});
+
+    void finishMaterial() {
+        if (!inMaterial_) return;
+        inMaterial_ = false;
+        const bool isNew = names_.insert(material_.name).second;
+        unused_.finishMaterial(isNew);
+        if (isNew) {
+            library_.materials.push_back(std::move(material_));
+        } else {
+            if (oddities_[Oddity::kDefinedAgain].count == 0) definedAgain_ = material_.name;
+            oddities_.add(Oddity::kDefinedAgain, definedAt_);
         }
-        material.emission = {emission, emission, Sides::kFront};
     }
-    return material;
-}
+
+    void readColour(std::string_view line, std::string_view keyword, std::string_view arguments) {
+        const std::string remedy = fmt::format("expected \"{} r g b\"", keyword);
+        glm::dvec3 colour(0.0);
+        int count = 0;
+        for (std::string_view rest = arguments; !rest.empty() && rest.front() != '#';) {
+            const std::string_view word = firstWord(rest);
+            const char* const end = word.data() + word.size();
+            const auto [past, value] = readNumber(word.data(), end);
+            if (past != end || !std::isfinite(value)) {
+                return tolerate(Oddity::kColour, line,
+                                fmt::format("{}: {} is not a finite number", keyword, inQuotes(word)),
+                                remedy);
+            }
+            if (value < 0.0) {
+                tolerate(Oddity::kNegative, line, fmt::format("{}: {} is negative", keyword, shortened(word)),
+                         "expected numbers >= 0");
+            }
+            if (count < 3) colour[count] = std::max(value, 0.0);
+            ++count;
+            rest = trimmed(rest.substr(word.size()));
+        }
+        if (count != 3) {
+            tolerate(count == 0 ? Oddity::kColour : Oddity::kColourCount, line,
+                     fmt::format("{}: {} numbers", keyword, count), remedy);
+        }
+        if (count == 0) return;
+        if (count == 1) colour = glm::dvec3(colour.x);
+        setColour(line, keyword == "Kd", colour);
+    }
+
+    void setColour(std::string_view line, bool diffuse, const glm::dvec3& colour) {
+        if (!glm::all(glm::lessThanEqual(colour, glm::dvec3(kLargestRadiance)))) {
+            text_.fail({offsetOf(line), diffuse ? "Kd: too large" : "Ke: too large",
+                        diffuse ? std::string("expected numbers from 0 to 1")
+                                : fmt::format("expected numbers from 0 to {:g}", kLargestRadiance)});
+        }
+        if (!diffuse) {
+            material_.emission = {glm::vec3(colour), glm::vec3(colour), Sides::kFront};
+            return;
+        }
+        material_.diffuse = glm::vec3(colour);
+        if (glm::any(glm::greaterThan(material_.diffuse, glm::vec3(1.0f)))) {
+            if (oddities_[Oddity::kAboveOne].count == 0) aboveOne_ = material_.name;
+            oddities_.add(Oddity::kAboveOne, offsetOf(line));
+        }
+    }
+
+    void warn() {
+        for (const auto& [kind, what, consequence] : kDescriptions)
+            warn(kind, what, consequence);
+        warn(Oddity::kDefinedAgain, fmt::format("material {} is defined again", inQuotes(definedAgain_)),
+             "the first one counts");
+        warn(Oddity::kAboveOne, fmt::format("Kd of {} is above 1", inQuotes(aboveOne_)),
+             "the surface reflects more light than it receives");
+        unused_.warn(text_, library_.warnings);
+    }
+
+    void warn(Oddity kind, std::string_view what, std::string_view consequence) {
+        const auto& [count, first] = oddities_[kind];
+        if (count == 0) return;
+        library_.warnings.push_back(
+            fmt::format("{}: line {}: {}{}: {}", text_.file(), text_.lineOf(first), what,
+                        count == 1 ? "" : fmt::format(" (and {} more)", count - 1), consequence));
+    }
+
+    void tolerate(Oddity oddity, std::string_view line, const std::string& problem,
+                  const std::string& remedy) {
+        if (reading_ == Reading::kStrict) text_.fail({offsetOf(line), problem, remedy});
+        oddities_.add(oddity, offsetOf(line));
+    }
+
+    std::size_t offsetOf(std::string_view line) const {
+        return static_cast<std::size_t>(line.data() - text_.view().data());
+    }
+
+    const SourceText text_;
+    const Reading reading_;
+    MaterialLibrary library_;
+    std::unordered_set<std::string> names_;
+    Tally<Oddity> oddities_;
+    std::string definedAgain_, aboveOne_;  ///< the first of their kind
+    MtlUnused unused_;
+    Material material_;          ///< the current one
+    std::size_t definedAt_ = 0;  ///< its offset
+    bool inMaterial_ = false, anyMaterial_ = false;
+};
 
 }  // namespace
 
-MaterialLibrary loadMtl(const std::filesystem::path& path) {
-    const SourceText text(path);
-    const Statements statements = checkStatements(text);
-    const std::vector<Definition>& definitions = statements.definitions;
-    MaterialLibrary library;
-    if (definitions.empty()) {
-        library.warnings.push_back(fmt::format("{}: defines no material", text.file()));
-        return library;
-    }
-    const std::vector<tinyobj::material_t> parsed = parse(statements.text);
-    if (parsed.size() != definitions.size()) {
-        throw InputError(text.file(), "", "was not understood", "expected a Wavefront MTL file");
-    }
-    std::set<std::string> names;
-    std::size_t textures = 0;
-    for (std::size_t i = 0; i < definitions.size(); ++i) {
-        if (!names.insert(definitions[i].name).second) {
-            library.warnings.push_back(fmt::format("{}: material {} is defined again; the first one counts",
-                                                   text.file(), inQuotes(definitions[i].name)));
-            continue;
-        }
-        const Material material = toMaterial(text, definitions[i], parsed[i]);
-        if (glm::any(glm::greaterThan(material.diffuse, glm::vec3(1.0f)))) {
-            library.warnings.push_back(fmt::format(
-                "{}: line {}: Kd of {} is above 1: the surface reflects more light than it receives",
-                text.file(), text.lineOf(definitions[i].diffuseAt), inQuotes(material.name)));
-        }
-        textures += definitions[i].hasTexture ? 1 : 0;
-        library.materials.push_back(material);
-    }
-    if (textures > 0) {
-        library.warnings.push_back(
-            fmt::format("{}: textures are not read: map_Kd of {} material{} has no effect", text.file(),
-                        textures, textures == 1 ? "" : "s"));
-    }
-    return library;
+MaterialLibrary loadMtl(const std::filesystem::path& path, Reading reading) {
+    return MtlReader(path, reading).run();
 }
 
 }  // namespace duolux

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/scene/scene.h"
+#include "host/scene/tally.h"
 
 namespace duolux {
 
@@ -14,8 +15,8 @@ struct MaterialLibrary {
 };
 
 /// Reads an MTL file: `Kd` is the diffuse albedo (0.8 where it is absent), `Ke` the radiance emitted from the
-/// front, invisible and visible alike; the other statements do not matter to a diffuse surface. Throws
-/// InputError.
-MaterialLibrary loadMtl(const std::filesystem::path& path);
+/// front, invisible and visible alike. Of the other statements those that would change the picture are named
+/// in a warning. Throws InputError.
+MaterialLibrary loadMtl(const std::filesystem::path& path, Reading reading = Reading::kLenient);
 
 }  // namespace duolux

@@ -38,15 +38,28 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     return previous[b.size()];
 }
 
-std::string suggestName(std::string_view unknown, std::span<const std::string> known) {
-    if (known.empty()) return "there are none";
-    // Names far longer than any known one are not misspellings, and would only cost time.
+std::optional<std::string> nearestName(std::string_view unknown, std::span<const std::string> known) {
+    // Names far longer than others are not misspellings of them, and would only cost time.
     constexpr std::size_t kLongest = 80;
     const std::string_view compared = unknown.substr(0, kLongest);
-    const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-        return editDistance(compared, a) < editDistance(compared, b);
-    });
-    if (editDistance(compared, *nearest) <= std::max<std::size_t>(2, nearest->size() / 3)) {
+    const std::string* nearest = nullptr;
+    std::size_t smallest = 2 * kLongest;
+    for (const std::string& name : known) {
+        const std::size_t difference =
+            std::max(name.size(), compared.size()) - std::min(name.size(), compared.size());
+        if (difference >= smallest) continue;
+        const std::size_t distance = editDistance(compared, name);
+        if (distance >= smallest) continue;
+        smallest = distance;
+        nearest = &name;
+    }
+    if (nearest == nullptr || smallest > std::max<std::size_t>(2, nearest->size() / 3)) return std::nullopt;
+    return *nearest;
+}
+
+std::string suggestName(std::string_view unknown, std::span<const std::string> known) {
+    if (known.empty()) return "there are none";
+    if (const auto nearest = nearestName(unknown, known)) {
         return fmt::format("did you mean {}?", inQuotes(*nearest));
     }
     constexpr std::size_t kMost = 12;

@@ -1,20 +1,17 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
+#include <filesystem>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
-#include "host/base/printable.h"
 #include "host/scene/mesh.h"
-#include "host/scene/mtl.h"
+#include "host/scene/obj_materials.h"
 #include "host/scene/obj_parse.h"
 #include "host/scene/smooth_normals.h"
 #include "host/scene/source_text.h"
@@ -26,74 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The materials of a mesh by name, those of MTL files first.
-class MaterialTable {
-  public:
-    explicit MaterialTable(Mesh& mesh) : mesh_(mesh) {}
-
-    void add(const Material& material) {
-        if (index_.try_emplace(material.name, static_cast<std::uint32_t>(mesh_.materials.size())).second) {
-            mesh_.materials.push_back(material);
-        }
-    }
-
-    /// One that no MTL file defines becomes a grey one of that name.
-    std::uint32_t find(const std::string& name, bool expected) {
-        const auto found = index_.find(name);
-        if (found != index_.end()) return found->second;
-        Material material;
-        material.name = name;
-        add(material);
-        if (expected) undefined_.push_back(name);
-        return index_.at(name);
-    }
-
-    const std::vector<std::string>& undefined() const { return undefined_; }
-
-  private:
-    Mesh& mesh_;
-    std::map<std::string, std::uint32_t> index_;
-    std::vector<std::string> undefined_;
-};
-
-/// The files that an mtllib line names: one whose name may hold blanks if there is such a file, else one a
-/// word.
-std::vector<fs::path> libraryFiles(const fs::path& folder, std::string_view names) {
-    std::error_code ec;
-    if (fs::is_regular_file(folder / names, ec)) return {folder / names};
-    std::vector<fs::path> files;
-    while (!names.empty()) {
-        const std::string_view name = firstWord(names);
-        files.push_back(folder / name);
-        names = trimmed(names.substr(name.size()));
-    }
-    return files;
-}
-
-void loadLibraries(const fs::path& path, const ObjFile& file, Mesh& mesh, MaterialTable& table) {
-    std::vector<fs::path> loaded;
-    for (const ObjPart& part : file.parts) {
-        for (const ObjNotes::Library& line : part.notes.libraries) {
-            for (const fs::path& mtl : libraryFiles(path.parent_path(), line.files)) {
-                if (std::find(loaded.begin(), loaded.end(), mtl) != loaded.end()) continue;
-                loaded.push_back(mtl);
-                std::error_code ec;
-                if (!fs::is_regular_file(mtl, ec)) {
-                    mesh.warnings.push_back(
-                        fmt::format("{}: no such file: its materials are grey", mtl.string()));
-                    continue;
-                }
-                MaterialLibrary library = loadMtl(mtl);
-                mesh.files.push_back(mtl);
-                for (const Material& material : library.materials)
-                    table.add(material);
-                for (std::string& warning : library.warnings)
-                    mesh.warnings.push_back(std::move(warning));
-            }
-        }
-    }
-}
-
 /// What holds at the first face of a part, and where its triangles go.
 struct PartStart {
     std::size_t firstTriangle = 0;
@@ -103,7 +32,7 @@ struct PartStart {
 };
 
 /// Carries the running state from part to part.
-std::vector<PartStart> findStarts(const ObjFile& file, MaterialTable& table) {
+std::vector<PartStart> findStarts(const ObjFile& file, ObjMaterials& table) {
     std::vector<PartStart> starts(file.parts.size());
     std::size_t triangles = 0;
     std::optional<std::uint32_t> material;
@@ -111,13 +40,12 @@ std::vector<PartStart> findStarts(const ObjFile& file, MaterialTable& table) {
     for (std::size_t i = 0; i < file.parts.size(); ++i) {
         const ObjPart& part = file.parts[i];
         const bool facesFirst = part.materials.empty() || part.materials.front().face > 0;
-        if (!material && facesFirst && !part.faceEnds.empty())
-            material = table.find(kDefaultMaterialName, false);
+        if (!material && facesFirst && !part.faceEnds.empty()) material = table.find("");
         starts[i].firstTriangle = triangles;
         starts[i].material = material.value_or(0);
         starts[i].smoothing = smoothing;
         for (const ObjPart::MaterialChange& change : part.materials) {
-            material = table.find(change.name, true);
+            material = table.find(change.name);
             starts[i].materialIds.push_back(*material);
         }
         if (!part.notes.smoothing.empty()) smoothing = part.notes.smoothing.back().group;
@@ -223,44 +151,27 @@ Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
     return geometry;
 }
 
-void warnOfIgnored(const SourceText& text, const ObjFile& file, Mesh& mesh) {
-    std::size_t count = 0;
-    std::size_t first = 0;
-    for (const ObjPart& part : file.parts) {
-        if (count == 0 && part.notes.ignored > 0) first = part.offset + part.notes.firstIgnored;
-        count += part.notes.ignored;
-    }
-    if (count == 0) return;
-    mesh.warnings.push_back(fmt::format(
-        "{}: line {}: {} is not supported; {} such line{} ignored", text.file(), text.lineOf(first),
-        inQuotes(firstWord(text.view().substr(first))), count, count == 1 ? " is" : "s are"));
-}
-
-void warnOfUndefined(const fs::path& path, const MaterialTable& table, Mesh& mesh) {
-    if (table.undefined().empty()) return;
-    const std::size_t more = table.undefined().size() - 1;
-    mesh.warnings.push_back(fmt::format("{}: material {}{} is not defined by any MTL file: grey 0.8 is used",
-                                        path.string(), inQuotes(table.undefined().front()),
-                                        more == 0 ? "" : fmt::format(" (and {} more)", more)));
-}
-
 }  // namespace
 
-Mesh loadObj(const fs::path& path) {
+Mesh loadObj(const fs::path& path, Reading reading) {
     Mesh mesh;
     mesh.source = path;
     mesh.files.push_back(path);
-    MaterialTable table(mesh);
     ObjFile file;
     {
-        SourceText text(path);
+        const SourceText text(path, "a Wavefront OBJ file");
         mesh.bytes = text.size();
-        file = parseObj(text);
-        warnOfIgnored(text, file, mesh);
+        file = parseObj(text, reading);
+        warnOfOddities(text, file.oddities, mesh.warnings);
     }
-    loadLibraries(path, file, mesh, table);
-    const std::vector<PartStart> starts = findStarts(file, table);
-    warnOfUndefined(path, table, mesh);
+    ObjMaterials materials(path, reading);
+    for (const ObjPart& part : file.parts) {
+        for (const std::string& names : part.notes.libraries)
+            materials.load(names);
+    }
+    const std::vector<PartStart> starts = findStarts(file, materials);
+    materials.moveTo(mesh);
+    mesh.origin = file.origin;
     mesh.geometry = buildGeometry(std::move(file), starts);
     if (mesh.geometry.triangles.empty()) {
         throw InputError(path.string(), "", "has no faces", "expected at least one \"f\" statement");

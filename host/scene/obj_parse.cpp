@@ -1,126 +1,25 @@
 #include "host/scene/obj_parse.h"
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <istream>
 #include <limits>
 #include <optional>
-#include <span>
-#include <streambuf>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/base/printable.h"
 #include "host/scene/mesh.h"
+#include "host/scene/origin.h"
 
 namespace duolux {
 
 namespace {
-
-/// Lets a stream read bytes where they lie.
-class MemoryBuffer : public std::streambuf {
-  public:
-    explicit MemoryBuffer(std::span<char> bytes) {
-        setg(bytes.data(), bytes.data(), bytes.data() + bytes.size());
-    }
-};
-
-/// Receives the statements of one part from the parser.
-class PartReader {
-  public:
-    PartReader(ObjFile& file, ObjPart& part, const ObjCounts& before, const ObjCounts& counts)
-        : file_(file), part_(part), before_(before), counts_(counts) {
-        part_.faceEnds.reserve(counts.faces);
-        part_.cornerVertices.reserve(3 * counts.faces);
-    }
-
-    void read(std::span<char> text) {
-        tinyobj::callback_t callbacks;
-        callbacks.vertex_cb = [](void* self, tinyobj::real_t x, tinyobj::real_t y, tinyobj::real_t z,
-                                 tinyobj::real_t) {
-            static_cast<PartReader*>(self)->vertex(glm::vec3(x, y, z));
-        };
-        callbacks.normal_cb = [](void* self, tinyobj::real_t x, tinyobj::real_t y, tinyobj::real_t z) {
-            static_cast<PartReader*>(self)->normal(glm::vec3(x, y, z));
-        };
-        callbacks.index_cb = [](void* self, tinyobj::index_t* corners, int count) {
-            static_cast<PartReader*>(self)->face({corners, static_cast<std::size_t>(count)});
-        };
-        callbacks.usemtl_cb = [](void* self, const char* name, int) {
-            auto* reader = static_cast<PartReader*>(self);
-            reader->part_.materials.push_back({reader->part_.faceEnds.size(), std::string(trimmed(name))});
-        };
-        MemoryBuffer buffer(text);
-        std::istream stream(&buffer);
-        tinyobj::LoadObjWithCallback(stream, callbacks, this);
-    }
-
-    /// The parser read what the check counted.
-    bool complete() const {
-        return vertices_ == counts_.vertices && normals_ == counts_.normals &&
-               part_.faceEnds.size() == counts_.faces;
-    }
-    std::optional<std::size_t> badVertex() const { return badVertex_; }
-    std::optional<std::size_t> badNormal() const { return badNormal_; }
-
-  private:
-    void vertex(const glm::vec3& position) {
-        // Written so that it fails for what is not a number, too.
-        const bool usable = glm::all(glm::lessThanEqual(glm::abs(position), glm::vec3(kLargestCoordinate)));
-        if (!usable && !badVertex_) badVertex_ = vertices_;
-        if (vertices_ < counts_.vertices) file_.positions[before_.vertices + vertices_] = position;
-        ++vertices_;
-    }
-
-    void normal(const glm::vec3& direction) {
-        const float largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-        const bool usable = largest <= std::numeric_limits<float>::max();
-        if (!usable && !badNormal_) badNormal_ = normals_;
-        if (normals_ < counts_.normals) {
-            file_.normals[before_.normals + normals_] =
-                largest > 0.0f ? glm::normalize(direction / largest) : glm::vec3(0.0f);
-        }
-        ++normals_;
-    }
-
-    void face(std::span<const tinyobj::index_t> corners) {
-        for (const tinyobj::index_t& corner : corners) {
-            addNormal(corner.normal_index);
-            part_.cornerVertices.push_back(resolve(corner.vertex_index, before_.vertices + vertices_));
-        }
-        part_.faceEnds.push_back(static_cast<std::uint32_t>(part_.cornerVertices.size()));
-    }
-
-    void addNormal(int index) {
-        if (index == 0 && part_.cornerNormals.empty()) return;
-        part_.cornerNormals.resize(part_.cornerVertices.size(), Geometry::kNoNormal);
-        part_.cornerNormals.push_back(index == 0 ? Geometry::kNoNormal
-                                                 : resolve(index, before_.normals + normals_));
-    }
-
-    static std::uint32_t resolve(int index, std::size_t seen) {
-        return static_cast<std::uint32_t>(index > 0 ? index - 1 : static_cast<std::ptrdiff_t>(seen) + index);
-    }
-
-    ObjFile& file_;
-    ObjPart& part_;
-    const ObjCounts before_, counts_;
-    std::size_t vertices_ = 0, normals_ = 0;
-    std::optional<std::size_t> badVertex_, badNormal_;
-};
-
-/// Where the statement `keyword` stands for the (ordinal + 1)th time. Only for error messages.
-std::size_t offsetOfStatement(std::string_view text, std::string_view keyword, std::size_t ordinal) {
-    for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
-        const std::string_view line = trimmed(text.substr(begin, text.find('\n', begin) - begin));
-        if (firstWord(line) == keyword && ordinal-- == 0) return begin;
-    }
-    return 0;
-}
 
 struct Stretch {
     std::size_t begin, end;
@@ -153,30 +52,107 @@ ObjCounts countAll(std::string_view text, std::vector<Stretch>& stretches) {
     return total;
 }
 
-std::optional<TextProblem> readStretch(std::span<char> text, const Stretch& stretch, const ObjCounts& total,
-                                       ObjFile& file, ObjPart& part) {
-    part.offset = stretch.begin;
-    if (auto problem = checkStatements(text, stretch.before, total, part.notes)) return problem;
-    PartReader reader(file, part, stretch.before, stretch.counts);
-    reader.read(text);
-    const std::string_view view(text.data(), text.size());
-    if (reader.badVertex()) {
-        return TextProblem{offsetOfStatement(view, "v", *reader.badVertex()),
-                           "a coordinate is not finite or too large",
-                           fmt::format("expected at most {:g} in magnitude", kLargestCoordinate)};
+/// Where the statement `v` stands for the (ordinal + 1)th time. Only for error messages.
+std::size_t offsetOfVertex(std::string_view text, std::size_t ordinal) {
+    for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
+        const std::string_view line = trimmed(text.substr(begin, text.find('\n', begin) - begin));
+        if (firstWord(line) == "v" && ordinal-- == 0) return begin;
     }
-    if (reader.badNormal()) {
-        return TextProblem{offsetOfStatement(view, "vn", *reader.badNormal()), "a normal is not finite",
-                           "expected \"vn x y z\""};
-    }
-    if (!reader.complete())
-        return TextProblem{0, "a statement was not understood", "expected a Wavefront OBJ file"};
-    return std::nullopt;
+    return 0;
 }
+
+/// The positions of a file, on their way to floats.
+class Positions {
+  public:
+    Positions(const SourceText& text, ObjFile& file, std::vector<glm::dvec3> values)
+        : text_(text), file_(file), values_(std::move(values)) {}
+
+    /// Vertices that are not finite are an error if a face uses one, and counted if not.
+    void settleBadVertices() {
+        std::vector<std::pair<std::size_t, std::size_t>> bad;  // (vertex, offset in the text)
+        for (const ObjPart& part : file_.parts) {
+            for (const ObjPart::BadVertex& vertex : part.badVertices)
+                bad.emplace_back(vertex.index, part.offset + vertex.offset);
+        }
+        if (bad.empty()) return;
+        const std::vector<bool> used = usedVertices();
+        for (const auto& [vertex, offset] : bad) {
+            if (used[vertex]) {
+                text_.fail({offset,
+                            fmt::format("{} is not a finite number",
+                                        inQuotes(firstWord(text_.view().substr(offset)))),
+                            "expected \"v x y z\""});
+            }
+            file_.oddities.add(ObjOddity::kUnusedVertex, offset);
+            values_[vertex] = glm::dvec3(0.0);
+        }
+    }
+
+    /// Makes them floats around the file's origin.
+    void round(Reading reading) {
+        file_.origin = originFor(usedBounds());
+        file_.positions.resize(values_.size());
+        bool inRange = true;
+        const auto largest = static_cast<double>(kLargestCoordinate);
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            const glm::dvec3 position = values_[i] - file_.origin;
+            inRange = inRange && glm::all(glm::lessThanEqual(glm::abs(position), glm::dvec3(largest)));
+            file_.positions[i] = glm::vec3(position);
+        }
+        if (!inRange) settleFarVertices(reading);
+    }
+
+  private:
+    std::vector<bool> usedVertices() const {
+        std::vector<bool> used(values_.size(), false);
+        for (const ObjPart& part : file_.parts) {
+            for (const std::uint32_t vertex : part.cornerVertices)
+                used[vertex] = true;
+        }
+        return used;
+    }
+
+    /// Bounds of the vertices that faces use, or of some of them if these are so far apart that there is no
+    /// need of an origin.
+    WideBounds usedBounds() const {
+        WideBounds all;
+        for (const glm::dvec3& value : values_)
+            all.add(value);
+        WideBounds bounds;
+        for (const ObjPart& part : file_.parts) {
+            for (const std::uint32_t vertex : part.cornerVertices) {
+                bounds.add(values_[vertex]);
+                if (kFarAway * bounds.extent() >= all.reach()) return bounds;
+            }
+        }
+        return bounds;
+    }
+
+    void settleFarVertices(Reading reading) {
+        const std::vector<bool> used = usedVertices();
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            const glm::vec3 size = glm::abs(file_.positions[i]);
+            if (glm::all(glm::lessThanEqual(size, glm::vec3(kLargestCoordinate)))) continue;
+            const bool refused = used[i] || reading == Reading::kStrict;
+            const bool isFirst = file_.oddities[ObjOddity::kUnusedVertex].count == 0;
+            const std::size_t offset = refused || isFirst ? offsetOfVertex(text_.view(), i) : 0;
+            if (refused) {
+                text_.fail({offset, "a coordinate is not finite or too large",
+                            fmt::format("expected at most {:g} in magnitude", kLargestCoordinate)});
+            }
+            file_.oddities.add(ObjOddity::kUnusedVertex, offset);
+            file_.positions[i] = glm::vec3(0.0f);
+        }
+    }
+
+    const SourceText& text_;
+    ObjFile& file_;
+    std::vector<glm::dvec3> values_;
+};
 
 }  // namespace
 
-ObjFile parseObj(SourceText& text) {
+ObjFile parseObj(const SourceText& text, Reading reading) {
     std::vector<Stretch> stretches = splitAtLines(text.view());
     const ObjCounts total = countAll(text.view(), stretches);
     constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
@@ -185,22 +161,32 @@ ObjFile parseObj(SourceText& text) {
     }
 
     ObjFile file;
-    file.positions.resize(total.vertices);
+    std::vector<glm::dvec3> positions(total.vertices);
     file.normals.resize(total.normals);
     file.parts.resize(stretches.size());
     std::vector<std::optional<TextProblem>> problems(stretches.size());
     parallelFor(stretches.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const std::span<char> bytes(text.data() + stretches[i].begin,
-                                        stretches[i].end - stretches[i].begin);
-            problems[i] = readStretch(bytes, stretches[i], total, file, file.parts[i]);
+            const Stretch& stretch = stretches[i];
+            ObjPart& part = file.parts[i];
+            part.offset = stretch.begin;
+            part.faceEnds.reserve(stretch.counts.faces);
+            part.cornerVertices.reserve(3 * stretch.counts.faces);
+            const ObjPartTarget target{positions, file.normals, stretch.before, total};
+            problems[i] = readObjPart(text.view().substr(stretch.begin, stretch.end - stretch.begin), target,
+                                      reading, part);
         }
     });
     for (std::size_t i = 0; i < problems.size(); ++i) {
-        if (!problems[i]) continue;
-        problems[i]->offset += stretches[i].begin;
-        text.fail(*problems[i]);
+        if (problems[i]) {
+            problems[i]->offset += stretches[i].begin;
+            text.fail(*problems[i]);
+        }
+        file.oddities.append(file.parts[i].notes.oddities, file.parts[i].offset);
     }
+    Positions rounding(text, file, std::move(positions));
+    rounding.settleBadVertices();
+    rounding.round(reading);
     return file;
 }
 

@@ -2,13 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/scene/source_text.h"
+#include "host/scene/tally.h"
 
 namespace duolux {
 
@@ -19,30 +18,54 @@ struct ObjCounts {
     ObjCounts& operator+=(const ObjCounts& other);
 };
 
-/// What the check notes beyond correctness, for the statements that matter to a loader of whole scenes.
+/// A quick count: only the first letters of each line are looked at. `text` is made of whole lines.
+ObjCounts countStatements(std::string_view text);
+
+enum class ObjKeyword {
+    kNone,
+    kVertex,
+    kTexture,
+    kNormal,
+    kFace,
+    kSmoothing,
+    kMaterial,
+    kLibrary,
+    kNeutral,  ///< without meaning for a picture of triangles: names, points and lines, display hints
+    kUnknown
+};
+ObjKeyword objKeywordOf(std::string_view word);
+
+/// What is not as it should be (or not used), and does not keep a file from being loaded.
+enum class ObjOddity {
+    kUnknownStatement,
+    kShortFace,
+    kUnusedVertex,
+    kExtraNumbers,
+    kNormal,
+    kNormalIndex,
+    kTexture,
+    kTextureIndex,
+    kTrailingSlash,
+    kSmoothing,
+    kMaterialName,
+    kLibraryName,
+    kVertexColour,
+    kCount
+};
+
+/// What is noted beside the geometry, for the statements that matter to a loader of whole scenes.
 struct ObjNotes {
     struct Smoothing {
         std::size_t face;     ///< first face it holds for, counted within the part of the text
         std::uint32_t group;  ///< 0: off
     };
-    struct Library {
-        std::size_t offset;
-        std::string files;  ///< the rest of the mtllib line
-    };
     std::vector<Smoothing> smoothing;
-    std::vector<Library> libraries;
-    std::size_t ignored = 0;       ///< statements of unknown or unsupported keywords
-    std::size_t firstIgnored = 0;  ///< offset of the first of them
+    std::vector<std::string> libraries;  ///< the rest of each mtllib line
+    Tally<ObjOddity> oddities;           ///< offsets are relative to the part
 };
 
-/// A quick count: only the first letters of each line are looked at. `text` is made of whole lines.
-ObjCounts countStatements(std::string_view text);
-
-/// Checks whole lines of an OBJ file so strictly that a lax parser can only read them one way: keywords,
-/// numbers, number of arguments, and every index of a face against `total`, the statements of the whole file
-/// (`before` are those ahead of this part, for relative indices). Comments behind numbers are blanked out.
-/// Offsets in the result and in `notes` are relative to the part. Returns the first problem.
-std::optional<TextProblem> checkStatements(std::span<char> text, const ObjCounts& before,
-                                           const ObjCounts& total, ObjNotes& notes);
+/// One warning for each kind of oddity: the first line, how many, and what becomes of them.
+void warnOfOddities(const SourceText& text, const Tally<ObjOddity>& oddities,
+                    std::vector<std::string>& warnings);
 
 }  // namespace duolux

@@ -12,6 +12,20 @@ const char* nameOf(Integrator integrator) {
     return integrator == Integrator::kLight ? "light" : "path";
 }
 
+void noteContent(Scene& scene) {
+    scene.content = {scene.geometry.positions.size(), scene.geometry.triangles.size(),
+                     scene.materials.size()};
+}
+
+void removeLamp(Scene& scene) {
+    Geometry& geometry = scene.geometry;
+    geometry.positions.resize(scene.content.positions);
+    geometry.triangles.resize(scene.content.triangles);
+    geometry.materials.resize(scene.content.triangles);
+    if (!geometry.normalIndices.empty()) geometry.normalIndices.resize(scene.content.triangles);
+    scene.materials.resize(scene.content.materials);
+}
+
 Bounds boundsOf(const Geometry& geometry) {
     assert(!geometry.triangles.empty());
     const glm::vec3 first = geometry.positions[geometry.triangles[0].x];

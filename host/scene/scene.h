@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -83,6 +84,13 @@ struct Scene {
     Reflectance reflectance;        ///< scene-wide
     std::vector<Material> materials;
     Geometry geometry;
+    /// What was taken off the coordinates of the file, in which `camera` and `geometry` would lose precision
+    /// as floats; 0 unless the scene is far from the origin for its extent.
+    glm::dvec3 origin{0.0};
+    /// How much of geometry and materials the files hold; a lamp that was added comes behind.
+    struct Content {
+        std::size_t positions = 0, triangles = 0, materials = 0;
+    } content;
     std::uint64_t meshBytes = 0;  ///< of text in the mesh files that were read
     std::vector<std::string>
         warnings;  ///< for the user: default light used, missing MTL, degenerate triangles ...
@@ -91,6 +99,12 @@ struct Scene {
         return material.reflectance ? *material.reflectance : reflectance;
     }
 };
+
+/// Notes that there is no more in the scene than its files hold.
+void noteContent(Scene& scene);
+
+/// Takes out what was added behind that.
+void removeLamp(Scene& scene);
 
 /// Axis-aligned bounds of all referenced vertices.
 struct Bounds {

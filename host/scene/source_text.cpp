@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/scene/file_kind.h"
 
 namespace duolux {
 
@@ -14,9 +18,6 @@ namespace {
 
 bool isBlank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-bool isDigit(char c) {
-    return c >= '0' && c <= '9';
 }
 
 /// Lone carriage returns end a line on old systems.
@@ -29,12 +30,18 @@ void endLinesByNewline(std::string& bytes) {
     }
 }
 
+bool isInComment(std::string_view bytes, std::size_t at) {
+    const std::size_t before = bytes.substr(0, at).rfind('\n');
+    const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+    return trimmed(bytes.substr(begin, at - begin)).starts_with('#');
+}
+
 std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
     std::vector<std::size_t> joins;
     for (std::size_t at = bytes.find('\\'); at != std::string::npos; at = bytes.find('\\', at + 1)) {
         std::size_t lineEnd = at + 1;
         if (lineEnd < bytes.size() && bytes[lineEnd] == '\r') ++lineEnd;
-        if (lineEnd >= bytes.size() || bytes[lineEnd] != '\n') continue;
+        if (lineEnd >= bytes.size() || bytes[lineEnd] != '\n' || isInComment(bytes, at)) continue;
         std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(at),
                   bytes.begin() + static_cast<std::ptrdiff_t>(lineEnd) + 1, ' ');
         joins.push_back(lineEnd);
@@ -44,7 +51,11 @@ std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
 
 }  // namespace
 
-SourceText::SourceText(const std::filesystem::path& path) : path_(path), bytes_(readFile(path)) {
+SourceText::SourceText(const std::filesystem::path& path, std::string_view expected)
+    : path_(path), bytes_(readFile(path)) {
+    expectNoForeignFormat(path, bytes_, expected);
+    while (!bytes_.empty() && bytes_.back() == '\0')
+        bytes_.pop_back();
     if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.replace(0, 3, 3, ' ');
     if (!bytes_.empty()) {
         if (const void* zero = std::memchr(bytes_.data(), 0, bytes_.size())) {
@@ -80,28 +91,23 @@ std::string_view firstWord(std::string_view text) {
     return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
-const char* skipDecimalNumber(const char* at, const char* end) {
-    auto skipDigits = [&] {
-        const char* const first = at;
-        while (at != end && isDigit(*at))
-            ++at;
-        return at - first;
-    };
-    if (at != end && (*at == '+' || *at == '-')) ++at;
-    std::ptrdiff_t digits = skipDigits();
-    if (at != end && *at == '.') {
-        ++at;
-        digits += skipDigits();
+ReadNumber readNumber(const char* at, const char* end) {
+    const char* first = at;
+    if (first != end && *first == '+') {
+        ++first;
+        if (first != end && *first == '-') return {nullptr, 0.0};
     }
-    if (digits == 0) return nullptr;
-    if (at != end && (*at == 'e' || *at == 'E')) {
-        ++at;
-        if (at != end && (*at == '+' || *at == '-')) ++at;
-        const std::ptrdiff_t exponentDigits = skipDigits();
-        constexpr std::ptrdiff_t kMostExponentDigits = 4;  // far beyond the range of a double
-        if (exponentDigits == 0 || exponentDigits > kMostExponentDigits) return nullptr;
-    }
-    return at;
+    double value = 0.0;
+    const auto [past, error] = std::from_chars(first, end, value);
+    if (error == std::errc::invalid_argument) return {nullptr, 0.0};
+    // Too large or too small: infinite or nearly zero.
+    if (error == std::errc::result_out_of_range)
+        value = std::strtod(std::string(first, past).c_str(), nullptr);
+    if (past == end || *past != '#') return {past, value};
+    const char* word = past;  // as in 1.#IND, which Microsoft's library wrote
+    while (word != end && !isBlank(*word))
+        ++word;
+    return {word, std::numeric_limits<double>::quiet_NaN()};
 }
 
 }  // namespace duolux

@@ -17,17 +17,17 @@ struct TextProblem {
 };
 
 /// A line-based text file (OBJ, MTL) made regular for parsers: every line ends in '\n' (or "\r\n"), also the
-/// last; a byte order mark is blanked; a line continued by '\' is joined. Offsets stay those of the file, so
-/// that any of them gives the line number as an editor shows it.
+/// last; a byte order mark is blanked; a line continued by '\' is joined, unless it is a comment; zero bytes
+/// at the end are left out. Offsets stay those of the file, so that any of them gives the line number as an
+/// editor shows it.
 class SourceText {
   public:
-    /// Throws InputError if the file cannot be read or is not text.
-    explicit SourceText(const std::filesystem::path& path);
+    /// Throws InputError if the file cannot be read or is not text, ForeignFile if it is evidently not
+    /// `expected` ("a Wavefront OBJ file").
+    SourceText(const std::filesystem::path& path, std::string_view expected);
 
     std::string file() const { return path_.string(); }
     std::string_view view() const { return bytes_; }
-    /// For parsers that blank out what they have dealt with.
-    char* data() { return bytes_.data(); }
     std::size_t size() const { return bytes_.size(); }
 
     /// 1 for the first line.
@@ -48,7 +48,12 @@ std::string_view trimmed(std::string_view text);
 /// The text up to the first blank or line end.
 std::string_view firstWord(std::string_view text);
 
-/// Past the number [+-]digits[.digits][e[+-]digits] that starts at `at`, or null if none does.
-const char* skipDecimalNumber(const char* at, const char* end);
+/// A number as %g writes it, also "nan", "inf" and "1.#IND" in their variants, which are not finite. `past`
+/// is null if none starts there.
+struct ReadNumber {
+    const char* past;
+    double value;
+};
+ReadNumber readNumber(const char* at, const char* end);
 
 }  // namespace duolux

@@ -23,11 +23,13 @@ namespace {
 
 constexpr const char* kNothingEmits = "nothing emits light: the picture will be black";
 
-SceneFile readObjScene(const std::filesystem::path& path) {
+SceneFile readObjScene(const std::filesystem::path& path, Reading reading) {
     Scene scene;
     scene.source = path;
     scene.reflectance = *presetReflectance("global");
-    appendMesh(scene, loadObj(path));
+    Mesh mesh = loadObj(path, reading);
+    setOrigin(scene, mesh.origin);
+    appendMesh(scene, std::move(mesh));
     if (scene.geometry.triangles.empty()) {
         throw InputError(path.string(), "", "every triangle has zero area", "expected triangles with area");
     }
@@ -35,12 +37,12 @@ SceneFile readObjScene(const std::filesystem::path& path) {
     return {std::move(scene), {}, triangles, false, false};
 }
 
-SceneFile readScene(const std::filesystem::path& path) {
+SceneFile readScene(const std::filesystem::path& path, Reading reading) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".obj") return readObjScene(path);
-    if (extension == ".json") return readJsonScene(path);
+    if (extension == ".obj") return readObjScene(path, reading);
+    if (extension == ".json") return readJsonScene(path, reading);
     throw InputError(path.string(), "", "is not a scene by its extension", "expected .obj or .json");
 }
 
@@ -73,10 +75,12 @@ class View {
 };
 
 void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices) {
-    const CameraChoice camera = read.camera.overriddenBy(choices.camera);
+    CameraChoice camera = read.camera.overriddenBy(choices.camera);
     if (const auto wrong = camera.contradiction()) {
         throw InputError(scene.source.string(), "camera", wrong->problem, wrong->remedy);
     }
+    if (camera.position) *camera.position -= scene.origin;
+    if (camera.target) *camera.target -= scene.origin;
     const bool emits = anyEmitter(scene);
     const bool mayAddLamp =
         choices.lamp == Lamp::kAlways || (choices.lamp == Lamp::kIfDark && !read.hasLights);
@@ -115,7 +119,7 @@ void chooseBounces(Scene& scene, const SceneFile& read, const SceneChoices& choi
 }
 
 Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
-    SceneFile read = readScene(path);
+    SceneFile read = readScene(path, choices.reading);
     Scene scene = std::move(read.scene);
     if (choices.size) {
         scene.render.width = choices.size->x;
@@ -123,6 +127,7 @@ Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
     }
     scene.reflectance = choices.reflectance.value_or(scene.reflectance);
     chooseBounces(scene, read, choices);
+    noteContent(scene);
     chooseView(scene, read, choices);
     for (std::string& warning : scene.warnings)
         warning = printable(warning);

@@ -6,6 +6,7 @@
 
 #include "host/scene/camera_choice.h"
 #include "host/scene/scene.h"
+#include "host/scene/tally.h"
 
 namespace duolux {
 
@@ -23,6 +24,7 @@ struct SceneChoices {
     std::optional<glm::uvec2> size = std::nullopt;  ///< of the picture, which an automatic camera fills
     std::optional<Reflectance> reflectance = std::nullopt;
     std::optional<std::uint32_t> bounces = std::nullopt;
+    Reading reading = Reading::kLenient;
 };
 
 /// Loads a scene by its extension: .obj (with its MTL; reflectance `global`) or .json (the scene format).

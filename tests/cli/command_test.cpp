@@ -1,11 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <string>
+
 #include "tests/cli/run_duolux.h"
 
 namespace duolux::test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -49,6 +53,34 @@ TEST_F(Command, DevicesShowsTheSoftwareDriverAndTheChoice) {
     EXPECT_THAT(result.out, HasSubstr("subgroup size"));
     EXPECT_THAT(result.out, HasSubstr("ray queries"));
     EXPECT_THAT(result.out, HasSubstr("* "));
+}
+
+TEST_F(Command, InfoCountsWhatTheFileHoldsWithoutTheAddedLamp) {
+    std::ofstream(folder_.path() / "q.obj") << "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+    const ProgramResult result = run({"info", "q.obj"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, ContainsRegex("triangles +2\n"));
+    EXPECT_THAT(result.out, ContainsRegex("vertices +4\n"));
+    EXPECT_THAT(result.out, ContainsRegex("bounds +-1, -1, 0  to  1, 1, 0\n"));
+    EXPECT_THAT(result.out, ContainsRegex("mean albedo 0.8 by area\n"));
+    EXPECT_THAT(result.out, HasSubstr("warning      nothing emits light")) << "but rendering adds one";
+}
+
+TEST_F(Command, InfoGivesCoordinatesAsInTheFile) {
+    std::ofstream(folder_.path() / "utm.obj") << "v 512345.67 4612345.67 120.5\nv 512346.87 4612345.67 "
+                                                 "120.5\nv 512346.87 4612346.57 120.5\nf 1 2 3\n";
+    const ProgramResult result = run({"info", "utm.obj"});
+    EXPECT_THAT(result.out, HasSubstr("512345.67, 4612345.67, 120.5  to  512346.87, 4612346.57, 120.5\n"));
+    EXPECT_THAT(result.out, ContainsRegex("camera +..position.: .51234[0-9.]+, 461234[0-9.]+, 1[12]"));
+}
+
+TEST_F(Command, InfoShowsNamesOfMaterialsWithoutTheirControlCharacters) {
+    std::ofstream(folder_.path() / "a.obj")
+        << "usemtl \x1b[31mX" << std::string(1000, 'y') << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const ProgramResult result = run({"info", "a.obj"});
+    EXPECT_EQ(result.out.find('\x1b'), std::string::npos);
+    EXPECT_THAT(result.out, HasSubstr("\n  \\x1b[31mXyyyyy"));
+    EXPECT_LT(result.out.size(), 2000u);
 }
 
 TEST_F(Command, InfoTellsWhatWasLoaded) {

@@ -12,6 +12,7 @@ struct MalformedScene {
     const char* name;
     std::vector<std::pair<std::string, std::string>> files;  ///< name and content; the first is the scene
     std::vector<std::string> words;  ///< that the error line must hold: file, place, problem, remedy
+    bool onlyIfStrict = false;       ///< loads without --strict
 };
 
 /// A command line that cannot be meant. It may refer to good.obj, a scene without fault.

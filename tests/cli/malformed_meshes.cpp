@@ -12,6 +12,12 @@ MalformedScene obj(const char* name, const std::string& text, std::vector<std::s
     return {name, {{"mesh.obj", text}}, std::move(words)};
 }
 
+/// Refused only by --strict.
+MalformedScene strict(MalformedScene scene) {
+    scene.onlyIfStrict = true;
+    return scene;
+}
+
 /// The MTL of a mesh that is right.
 MalformedScene mtl(const char* name, const std::string& text, std::vector<std::string> words) {
     return {
@@ -33,37 +39,46 @@ std::vector<MalformedScene> malformedObjs() {
             {"mesh.obj: line 4: ", "zero byte", "text file"}),
         obj("WordAsCoordinate", "v 0 0 zero\n" + kVertices,
             {"mesh.obj: line 1: ", "\"zero\"", "\"v x y z\""}),
-        obj("NanAsCoordinate", kVertices + "v nan 0 0\nf 1 2 3\n",
-            {"mesh.obj: line 4: ", "\"nan\"", "finite"}),
-        obj("InfiniteCoordinate", kVertices + "v 0 -inf 0\nf 1 2 3\n",
-            {"mesh.obj: line 4: ", "\"-inf\"", "finite"}),
-        obj("HugeCoordinate", kVertices + "v 0 1e39 0\nf 1 2 3\n",
-            {"mesh.obj: line 4: ", "too large", "1e+09"}),
+        strict(obj("NanAsCoordinate", kVertices + "v nan 0 0\nf 1 2 3\n",
+                   {"mesh.obj: line 4: ", "\"nan\"", "finite"})),
+        strict(obj("InfiniteCoordinate", kVertices + "v 0 -inf 0\nf 1 2 3\n",
+                   {"mesh.obj: line 4: ", "\"-inf\"", "finite"})),
+        strict(obj("HugeCoordinate", kVertices + "v 0 1e39 0\nf 1 2 3\n",
+                   {"mesh.obj: line 4: ", "too large", "1e+09"})),
         obj("TwoCoordinates", kVertices + "v 1 2\nf 1 2 3\n",
             {"mesh.obj: line 4: ", "2 numbers", "\"v x y z\""}),
         obj("DecimalComma", "v 0,5 0 0\n", {"mesh.obj: line 1: ", "\"0,5\""}),
-        obj("NormalOfTwo", kVertices + "vn 0 1\nf 1 2 3\n",
-            {"mesh.obj: line 4: ", "2 numbers", "\"vn x y z\""}),
-        obj("TextureOfWords", kVertices + "vt u v\nf 1 2 3\n", {"mesh.obj: line 4: ", "\"u\"", "\"vt u v\""}),
+        strict(obj("NormalOfTwo", kVertices + "vn 0 1\nf 1 2 3\n",
+                   {"mesh.obj: line 4: ", "2 numbers", "\"vn x y z\""})),
+        strict(obj("TextureOfWords", kVertices + "vt u v\nf 1 2 3\n",
+                   {"mesh.obj: line 4: ", "\"u\"", "\"vt u v\""})),
         obj("IndexTooLarge", kVertices + "f 1 2 4\n", {"mesh.obj: line 4: ", "vertex index 4", "3 vertices"}),
         obj("IndexZero", kVertices + "\nf 0 1 2\n", {"mesh.obj: line 5: ", "vertex index 0", "out of range"}),
         obj("IndexTooFarBack", kVertices + "f -1 -2 -4\n",
             {"mesh.obj: line 4: ", "index -4", "before this line"}),
         obj("IndexBeyondIntegers", kVertices + "f 1 2 18446744073709551617\n",
             {"mesh.obj: line 4: ", "out of range"}),
-        obj("NormalIndexTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n",
-            {"mesh.obj: line 5: ", "normal index 2", "1 normals"}),
-        obj("TextureIndexTooLarge", kVertices + "f 1/1 2/1 3/1\n",
-            {"mesh.obj: line 4: ", "texture coordinate index 1"}),
-        obj("FaceOfTwo", kVertices + "f 1 2\n", {"mesh.obj: line 4: ", "2 corners", "at least 3"}),
+        strict(obj("NormalIndexTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n",
+                   {"mesh.obj: line 5: ", "normal index 2", "1 normals"})),
+        strict(obj("TextureIndexTooLarge", kVertices + "f 1/1 2/1 3/1\n",
+                   {"mesh.obj: line 4: ", "texture coordinate index 1"})),
+        strict(obj("FaceOfTwo", kVertices + "f 1 2 3\nf 1 2\n",
+                   {"mesh.obj: line 5: ", "2 corners", "at least 3"})),
+        obj("OnlyAFaceOfTwo", kVertices + "f 1 2\n", {"mesh.obj: ", "has no faces"}),
+        obj("UsedNanCoordinate", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+            {"mesh.obj: line 1: ", "\"nan\"", "finite"}),
+        obj("GitLfsPointer", "version https://git-lfs.github.com/spec/v1\noid sha256:12\nsize 9\n",
+            {"mesh.obj: is a Git LFS pointer", "git lfs pull"}),
+        obj("Ply", "ply\nformat ascii 1.0\n", {"mesh.obj: is PLY", "Wavefront OBJ"}),
+        strict(obj("TrailingSlash", kVertices + "f 1/ 2/ 3/\n", {"mesh.obj: line 4: ", "\"1/\"", "1//1"})),
         obj("FaceOfWords", kVertices + "f a b c\n", {"mesh.obj: line 4: ", "\"a\"", "1//1"}),
         obj("FaceOfFractions", kVertices + "f 1.0 2.0 3.0\n", {"mesh.obj: line 4: ", "\"1.0\""}),
-        obj("SmoothingByWord", "s smooth\n" + kVertices + "f 1 2 3\n",
-            {"mesh.obj: line 1: ", "\"smooth\"", "\"off\""}),
-        obj("MaterialWithoutName", kVertices + "usemtl\nf 1 2 3\n",
-            {"mesh.obj: line 4: ", "\"usemtl NAME\""}),
-        obj("LibraryWithoutName", "mtllib \n" + kVertices + "f 1 2 3\n",
-            {"mesh.obj: line 1: ", "\"mtllib FILE.mtl\""}),
+        strict(obj("SmoothingByWord", "s smooth\n" + kVertices + "f 1 2 3\n",
+                   {"mesh.obj: line 1: ", "\"smooth\"", "\"off\""})),
+        strict(obj("MaterialWithoutName", kVertices + "usemtl\nf 1 2 3\n",
+                   {"mesh.obj: line 4: ", "\"usemtl NAME\""})),
+        strict(obj("LibraryWithoutName", "mtllib \n" + kVertices + "f 1 2 3\n",
+                   {"mesh.obj: line 1: ", "\"mtllib FILE.mtl\""})),
         {"UnknownExtension", {{"mesh.stl", "solid\n"}}, {"mesh.stl: ", ".obj", ".json"}},
         {"NoSuchFile", {{"none.obj", "-"}}, {"none.obj: ", "No such file"}},
     };
@@ -71,17 +86,18 @@ std::vector<MalformedScene> malformedObjs() {
 
 std::vector<MalformedScene> malformedMtls() {
     return {
-        mtl("DiffuseOfWord", "newmtl a\nKd red\n", {"mesh.mtl: line 2: ", "\"red\"", "\"Kd r g b\""}),
-        mtl("DiffuseMissing", "newmtl a\nKd\n", {"mesh.mtl: line 2: ", "0 numbers", "\"Kd r g b\""}),
-        mtl("DiffuseNegative", "newmtl a\n\nKd 1 -0.5 1\n",
-            {"mesh.mtl: line 3: ", "-0.5 is negative", ">= 0"}),
-        mtl("DiffuseInfinite", "newmtl a\nKd inf 1 1\n", {"mesh.mtl: line 2: ", "\"inf\"", "finite"}),
+        strict(mtl("DiffuseOfWord", "newmtl a\nKd red\n", {"mesh.mtl: line 2: ", "\"red\"", "\"Kd r g b\""})),
+        strict(mtl("DiffuseMissing", "newmtl a\nKd\n", {"mesh.mtl: line 2: ", "0 numbers", "\"Kd r g b\""})),
+        strict(mtl("DiffuseNegative", "newmtl a\n\nKd 1 -0.5 1\n",
+                   {"mesh.mtl: line 3: ", "-0.5 is negative", ">= 0"})),
+        strict(mtl("DiffuseInfinite", "newmtl a\nKd inf 1 1\n", {"mesh.mtl: line 2: ", "\"inf\"", "finite"})),
         mtl("DiffuseHuge", "newmtl a\nKd 1 1 1e60\n", {"mesh.mtl: line 2: ", "too large", "0 to 1"}),
-        mtl("EmissionOfTwo", "newmtl a\nKe 1 2\n", {"mesh.mtl: line 2: ", "2 numbers", "\"Ke r g b\""}),
-        mtl("EmissionOfFour", "newmtl a\nKe 1 2 3 4\n", {"mesh.mtl: line 2: ", "4 numbers"}),
+        strict(
+            mtl("EmissionOfTwo", "newmtl a\nKe 1 2\n", {"mesh.mtl: line 2: ", "2 numbers", "\"Ke r g b\""})),
+        strict(mtl("EmissionOfFour", "newmtl a\nKe 1 2 3 4\n", {"mesh.mtl: line 2: ", "4 numbers"})),
         mtl("EmissionHuge", "newmtl a\nKe 1 2 1e30\n", {"mesh.mtl: line 2: ", "too large"}),
-        mtl("NothingDefined", "Kd 1 1 1\n", {"mesh.mtl: line 1: ", "before any newmtl"}),
-        mtl("MaterialWithoutName", "newmtl\nKd 1 1 1\n", {"mesh.mtl: line 1: ", "\"newmtl NAME\""}),
+        strict(mtl("NothingDefined", "Kd 1 1 1\n", {"mesh.mtl: line 1: ", "before any newmtl"})),
+        strict(mtl("MaterialWithoutName", "newmtl\nKd 1 1 1\n", {"mesh.mtl: line 1: ", "\"newmtl NAME\""})),
     };
 }
 

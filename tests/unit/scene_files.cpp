@@ -37,9 +37,9 @@ Scene SceneFiles::loadJson(std::string_view text) const {
     return loadScene(write("scene.json", text));
 }
 
-std::string SceneFiles::errorOf(const std::string& name) const {
+std::string SceneFiles::errorOf(const std::string& name, Reading reading) const {
     try {
-        loadScene(folder_ / name);
+        loadScene(folder_ / name, {.reading = reading});
     } catch (const InputError& e) {
         std::string line = e.what();
         EXPECT_EQ(line.find('\n'), std::string::npos) << line;
@@ -54,9 +54,9 @@ std::string SceneFiles::errorOf(const std::string& name) const {
     return {};
 }
 
-std::string SceneFiles::errorOfObj(std::string_view text) const {
+std::string SceneFiles::errorOfObj(std::string_view text, Reading reading) const {
     write("mesh.obj", text);
-    return errorOf("mesh.obj");
+    return errorOf("mesh.obj", reading);
 }
 
 std::string SceneFiles::errorOfJson(std::string_view text) const {

@@ -9,6 +9,7 @@
 
 #include "host/base/temporary_folder.h"
 #include "host/scene/scene.h"
+#include "host/scene/tally.h"
 
 namespace duolux::test {
 
@@ -23,8 +24,8 @@ class SceneFiles : public testing::Test {
     Scene loadJson(std::string_view text) const;
 
     /// The error line, without the folder; fails if there is no InputError or it has several lines.
-    std::string errorOf(const std::string& name) const;
-    std::string errorOfObj(std::string_view text) const;
+    std::string errorOf(const std::string& name, Reading reading = Reading::kLenient) const;
+    std::string errorOfObj(std::string_view text, Reading reading = Reading::kLenient) const;
     std::string errorOfJson(std::string_view text) const;
 
     TemporaryFolder temporary_;

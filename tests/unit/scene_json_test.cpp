@@ -266,7 +266,17 @@ TEST_F(JsonTest, ObjectsAreChecked) {
     EXPECT_THAT(transform("1,0,0,0, 0,1,0,0, 1,1,0,0, 0,0,0,1"),
                 HasSubstr("objects[0].transform: is singular"));
     EXPECT_THAT(transform("0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1"), HasSubstr("is singular"));
-    EXPECT_THAT(transform("1,0,0,1e9, 0,1,0,0, 0,0,1,0, 0,0,0,1"), HasSubstr("moves the mesh out of range"));
+    EXPECT_THAT(transform("1e9,0,0,1e9, 0,1,0,0, 0,0,1,0, 0,0,0,1"),
+                HasSubstr("moves the mesh out of range"));
+}
+
+TEST_F(JsonTest, StatedLimitsAreAccepted) {
+    const Scene scene =
+        loadJson(R"({"duolux": 1, "display": [1e6, -1e6], "reflectance": {"opaque": [[1e6, 0], [0, 0]],
+        "transparent": [[0, 0], [0, 0]]}, "lights": [{"type": "rectangle", "origin": [0, 0, 0], "edge1": [1e9, 0, 0],
+        "edge2": [0, 1e9, 0], "emission": {"invisible": 1e12, "visible": [1e12, 0, 1e12]}}]})");
+    EXPECT_EQ(scene.materials[0].emission.invisible, glm::vec3(1e12f));
+    EXPECT_EQ(scene.materials[0].emission.visible, glm::vec3(1e12f, 0, 1e12f));
 }
 
 TEST_F(JsonTest, LightsAreChecked) {

@@ -112,8 +112,8 @@ TEST_F(NormalsTest, NormalsThatCancelLeaveTheTriangleFlat) {
     EXPECT_TRUE(normalsOf(geometry, 1).empty());
 }
 
-TEST_F(NormalsTest, MalformedSmoothingGroupIsAnError) {
-    EXPECT_EQ(errorOfObj("s on\n" + std::string(kTriangleObj)),
+TEST_F(NormalsTest, MalformedSmoothingGroupIsAStrictError) {
+    EXPECT_EQ(errorOfObj("s on\n" + std::string(kTriangleObj), Reading::kStrict),
               "mesh.obj: line 1: smoothing group \"on\"; expected a number or \"off\"");
 }
 

@@ -180,14 +180,28 @@ TEST_F(ObjTest, IndicesAreChecked) {
     EXPECT_THAT(error("f 0 1 2"), HasSubstr("line 6: vertex index 0 is out of range"));
     EXPECT_THAT(error("f -4 1 2"),
                 HasSubstr("vertex index -4 is out of range; there are 3 vertices before this line"));
-    EXPECT_THAT(error("f 1/2 2/1 3/1"), HasSubstr("texture coordinate index 2 is out of range"));
-    EXPECT_THAT(error("f 1//1 2//2 3//1"), HasSubstr("normal index 2 is out of range"));
     EXPECT_THAT(error("f 1 2 99999999999999999999999"), HasSubstr("is out of range"));
-    EXPECT_THAT(error("f 1 2"), HasSubstr("line 6: a face of 2 corners; expected at least 3"));
     EXPECT_THAT(error("f 1 2 three"), HasSubstr("\"three\" is not a corner of a face"));
     EXPECT_THAT(error("f 1 2 3x"), HasSubstr("\"3x\" is not a corner of a face"));
-    EXPECT_THAT(error("f 1/ 2/ 3/"), HasSubstr("\"1/\" is not a corner of a face"));
     EXPECT_THAT(error("f 1 2 3 1.5"), HasSubstr("\"1.5\" is not a corner of a face"));
+}
+
+TEST_F(ObjTest, StrictReadingRefusesWhatDoesNotMatter) {
+    const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3\n";
+    const auto error = [&](const char* line) { return errorOfObj(head + line + "\n", Reading::kStrict); };
+    EXPECT_THAT(error("f 1/2 2/1 3/1"), HasSubstr("line 7: texture coordinate index 2 is out of range"));
+    EXPECT_THAT(error("f 1//1 2//2 3//1"), HasSubstr("line 7: normal index 2 is out of range"));
+    EXPECT_THAT(error("f 1//0 2//1 3//1"), HasSubstr("line 7: normal index 0 is out of range"));
+    EXPECT_THAT(error("f 1 2"), HasSubstr("line 7: a face of 2 corners; expected at least 3"));
+    EXPECT_THAT(error("f 1/ 2/ 3/"), HasSubstr("line 7: \"1/\" is not a corner of a face"));
+    EXPECT_THAT(error("f 1/1/ 2/1/ 3/1/"), HasSubstr("line 7: \"1/1/\" is not a corner of a face"));
+    EXPECT_THAT(error("vn nan 0 0"), HasSubstr("line 7: \"nan\" is not a finite number"));
+    EXPECT_THAT(error("vt 0 -1.#IND"), HasSubstr("line 7: \"-1.#IND\" is not a finite number"));
+    EXPECT_THAT(error("v nan 0 0"), HasSubstr("line 7: \"nan\" is not a finite number"));
+    EXPECT_THAT(error("vn 0 1"), HasSubstr("line 7: 2 numbers; expected \"vn x y z\""));
+    EXPECT_THAT(error("usemtl "), HasSubstr("line 7: names no material"));
+    EXPECT_THAT(error("mtllib"), HasSubstr("line 7: names no file"));
+    EXPECT_THAT(error("s on"), HasSubstr("line 7: smoothing group \"on\"; expected a number or \"off\""));
 }
 
 TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
@@ -195,6 +209,7 @@ TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
     EXPECT_THAT(errorOfObj("v 0 0 0\n"), StartsWith("mesh.obj: has no faces"));
     EXPECT_THAT(errorOfObj("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
                 StartsWith("mesh.obj: every triangle has zero area"));
+    EXPECT_THAT(errorOfObj("v 0 0 0\nv 1 0 0\nf 1 2\n"), StartsWith("mesh.obj: has no faces"));
     EXPECT_THAT(errorOfObj(std::string("v 0 0 0\n\0x", 10)),
                 StartsWith("mesh.obj: line 2: holds a zero byte"));
 }

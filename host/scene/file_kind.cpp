@@ -1,0 +1,118 @@
+#include "host/scene/file_kind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace duolux {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Signature {
+    std::string_view bytes;
+    std::string_view kind;
+};
+
+constexpr std::string_view kLfsRemedy = "expected the file itself, which \"git lfs pull\" fetches";
+
+/// By their first bytes.
+constexpr std::array kBinary{
+    Signature{"PK\x03\x04"sv, "a zip archive"},
+    Signature{"\x1F\x8B"sv, "compressed by gzip"},
+    Signature{"BZh"sv, "compressed by bzip2"},
+    Signature{"\xFD"
+              "7zXZ\0"sv,
+              "compressed by xz"},
+    Signature{"\x28\xB5\x2F\xFD"sv, "compressed by zstd"},
+    Signature{"7z\xBC\xAF\x27\x1C"sv, "a 7-Zip archive"},
+    Signature{"Rar!\x1A\x07"sv, "a RAR archive"},
+    Signature{"glTF"sv, "binary glTF"},
+    Signature{"Kaydara FBX Binary"sv, "FBX"},
+    Signature{"BLENDER"sv, "a Blender file"},
+    Signature{"PXR-USDC"sv, "USD"},
+    Signature{"\x89PNG"sv, "a PNG image"},
+    Signature{"\xFF\xD8\xFF"sv, "a JPEG image"},
+    Signature{"\x76\x2F\x31\x01"sv, "an OpenEXR image"},
+    Signature{"%PDF"sv, "a PDF document"},
+    Signature{"\x7F"
+              "ELF"sv,
+              "a compiled object file"},
+    Signature{"\x64\x86"sv, "a compiled object file"},
+    Signature{"\x4C\x01"sv, "a compiled object file"},
+    Signature{"\xFF\xFE"sv, "UTF-16 text"},
+    Signature{"\xFE\xFF"sv, "UTF-16 text"},
+};
+
+/// By the first words, in lower case, behind blanks.
+constexpr std::array kText{
+    Signature{"version https://git-lfs"sv, "a Git LFS pointer"},
+    Signature{"/annex/objects/"sv, "a git-annex pointer"},
+    Signature{"ply\n"sv, "PLY"},
+    Signature{"ply\r"sv, "PLY"},
+    Signature{"off\n"sv, "OFF"},
+    Signature{"off\r"sv, "OFF"},
+    Signature{"<!doctype html"sv, "an HTML page"},
+    Signature{"<html"sv, "an HTML page"},
+    Signature{"<?xml"sv, "XML"},
+    Signature{"<svg"sv, "SVG"},
+    Signature{"<collada"sv, "COLLADA"},
+    Signature{"#usda"sv, "USD"},
+    Signature{"; fbx"sv, "FBX"},
+    Signature{"# .pcd"sv, "a PCD point cloud"},
+    Signature{"#vrml"sv, "VRML"},
+};
+
+std::string lowerHead(std::string_view bytes) {
+    constexpr std::size_t kHead = 1024;
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) return {};
+    std::string head(bytes.substr(first, kHead));
+    std::transform(head.begin(), head.end(), head.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return head;
+}
+
+bool isBinaryStl(std::string_view bytes) {
+    constexpr std::size_t kHeader = 84, kFacet = 50;
+    if (bytes.size() < kHeader) return false;
+    std::uint32_t facets = 0;
+    std::memcpy(&facets, bytes.data() + kHeader - sizeof facets, sizeof facets);
+    return bytes.size() == kHeader + kFacet * facets && bytes.find('\0') != std::string_view::npos;
+}
+
+/// Empty if it may be what its name says.
+std::string_view foreignKind(std::string_view bytes, bool jsonExpected) {
+    for (const Signature& signature : kBinary) {
+        if (bytes.starts_with(signature.bytes)) return signature.kind;
+    }
+    const std::string head = lowerHead(bytes);
+    for (const Signature& signature : kText) {
+        if (head.starts_with(signature.bytes)) return signature.kind;
+    }
+    if (isBinaryStl(bytes)) return "STL";
+    if (head.starts_with("solid") && head.find("facet") != std::string::npos) return "STL";
+    if (head.starts_with("{") && head.find("\"asset\"") != std::string::npos) return "glTF";
+    if (!jsonExpected && head.starts_with("{")) return "JSON";
+    return {};
+}
+
+}  // namespace
+
+void expectNoForeignFormat(const std::filesystem::path& path, std::string_view bytes,
+                           std::string_view expected) {
+    const std::string_view kind = foreignKind(bytes, expected.find("JSON") != std::string_view::npos);
+    if (kind.empty()) return;
+    const bool lfs = kind == kText.front().kind;
+    throw ForeignFile(path.string(), "", fmt::format("is {}", kind),
+                      lfs ? std::string(kLfsRemedy) : fmt::format("expected {}", expected));
+}
+
+}  // namespace duolux

@@ -1,0 +1,136 @@
+#include "host/scene/mtl_unused.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace duolux {
+
+namespace {
+
+struct Name {
+    std::string_view keyword;
+    std::string_view other;  ///< spelling
+};
+
+// map_Ka is not among them: there is no ambient light.
+constexpr Name kTextureNames[] = {
+    {"map_Kd", ""},           {"map_Ks", ""},       {"map_Ke", ""},       {"map_Ns", ""},
+    {"map_d", "map_Tr"},      {"map_Pr", ""},       {"map_Pm", ""},       {"map_Ps", ""},
+    {"map_bump", "map_Bump"}, {"bump", ""},         {"norm", "map_norm"}, {"disp", "map_disp"},
+    {"decal", "map_decal"},   {"refl", "map_refl"},
+};
+
+/// Of physically based extensions; 0 is what they are without.
+constexpr std::string_view kShineNames[] = {"Pm", "Ps", "Pc"};
+
+/// The largest of up to three numbers; nothing if the first word is none (as in "spectral FILE").
+std::optional<double> largestNumber(std::string_view arguments) {
+    if (arguments.starts_with("-halo")) arguments = trimmed(arguments.substr(5));
+    std::optional<double> largest;
+    for (int i = 0; i < 3 && !arguments.empty(); ++i) {
+        const std::string_view word = firstWord(arguments);
+        const auto [past, value] = readNumber(word.data(), word.data() + word.size());
+        if (past != word.data() + word.size() || !std::isfinite(value)) break;
+        largest = std::max(largest.value_or(value), value);
+        arguments = trimmed(arguments.substr(word.size()));
+    }
+    return largest;
+}
+
+bool isTransparent(int illumination) {
+    return illumination == 4 || illumination == 6 || illumination == 7 || illumination == 9;
+}
+
+}  // namespace
+
+void MtlUnused::note(Group group, std::string_view keyword, std::size_t offset) {
+    const auto same = [&](const Statement& statement) { return statement.keyword == keyword; };
+    if (std::none_of(statements_.begin(), statements_.end(), same))
+        statements_.push_back({group, keyword, offset});
+}
+
+void MtlUnused::add(std::string_view keyword, std::string_view arguments, std::size_t offset) {
+    for (const auto& [name, other] : kTextureNames) {
+        if (keyword == name || keyword == other) return note(kTextures, name, offset);
+    }
+    const std::optional<double> number = largestNumber(arguments);
+    if (!number) return;
+    for (const std::string_view name : kShineNames) {
+        if (keyword == name && *number > 0.0) note(kShine, name, offset);
+    }
+    if (keyword == "d") {
+        values_.dissolve = number;
+        values_.dissolveAt = offset;
+    } else if (keyword == "Tr") {
+        values_.transparency = number;
+        values_.transparencyAt = offset;
+    } else if (keyword == "Tf") {
+        values_.filter = number;
+        values_.filterAt = offset;
+    } else if (keyword == "Ks") {
+        values_.specular = number;
+        values_.specularAt = offset;
+    } else if (keyword == "illum") {
+        values_.illumination = static_cast<int>(std::clamp(*number, 0.0, 10.0));
+        values_.illuminationAt = offset;
+    }
+}
+
+void MtlUnused::finishMaterial(bool counts) {
+    const Values& v = values_;
+    constexpr double kOpaque = 0.999;
+    if (v.dissolve && *v.dissolve < kOpaque) note(kTransparency, "d", v.dissolveAt);
+    // Some programs write Tr 1 for opaque, along with d 1, which then tells.
+    if (v.transparency && *v.transparency > 1.0 - kOpaque && v.dissolve.value_or(0.0) < kOpaque) {
+        note(kTransparency, "Tr", v.transparencyAt);
+    }
+    if (isTransparent(v.illumination)) {
+        if (v.filter.value_or(0.0) > 0.0) note(kTransparency, "Tf", v.filterAt);
+        note(kTransparency, "illum", v.illuminationAt);
+    }
+    // 0.5 is what Blender writes for anything; models 0 and 1 have no highlights, those above 2 reflect.
+    constexpr double kUsual = 0.5;
+    const double specular = v.specular.value_or(0.0);
+    if (v.illumination > 2 ? specular > 0.0 : v.illumination == 2 && specular > kUsual) {
+        note(kShine, "Ks", v.specularAt);
+    }
+    if (counts) {
+        std::array<bool, kGroups> inGroup{};
+        for (const auto& [group, keyword, offset] : statements_) {
+            Found& found = found_[group];
+            if (found.materials == 0 && !inGroup[group]) found.first = offset;
+            found.first = std::min(found.first, offset);
+            found.materials += inGroup[group] ? 0 : 1;
+            inGroup[group] = true;
+            auto named = std::find_if(found.keywords.begin(), found.keywords.end(),
+                                      [&](const Named& other) { return other.keyword == keyword; });
+            if (named == found.keywords.end())
+                named = found.keywords.insert(named, {std::string(keyword), 0});
+            ++named->materials;
+        }
+    }
+    values_ = Values();
+    statements_.clear();
+}
+
+void MtlUnused::warn(const SourceText& text, std::vector<std::string>& warnings) const {
+    constexpr const char* kWhat[kGroups] = {"textures are not read", "surfaces are opaque",
+                                            "surfaces are diffuse"};
+    for (std::size_t group = 0; group < kGroups; ++group) {
+        const Found& found = found_[group];
+        if (found.materials == 0) continue;
+        std::string names;
+        for (const auto& [keyword, materials] : found.keywords) {
+            names += (names.empty() ? "" : ", ") + keyword;
+            if (found.keywords.size() > 1) names += fmt::format(" ({})", materials);
+        }
+        warnings.push_back(fmt::format("{}: line {}: {}: {} of {} material{} ha{} no effect", text.file(),
+                                       text.lineOf(found.first), kWhat[group], names, found.materials,
+                                       found.materials == 1 ? "" : "s",
+                                       found.keywords.size() == 1 ? "s" : "ve"));
+    }
+}
+
+}  // namespace duolux

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace duolux {
+
+/// What a reader does about statements that are wrong, but do not matter or can only mean one thing.
+enum class Reading {
+    kLenient,  ///< reads them as other programs do, and warns once a kind
+    kStrict    ///< refuses them
+};
+
+/// How often each of the kinds of an enumeration (whose last is kCount) occurs in a text, and where first.
+template <typename Kind>
+class Tally {
+  public:
+    struct Entry {
+        std::size_t count = 0;
+        std::size_t first = 0;  ///< offset in the text
+    };
+
+    void add(Kind kind, std::size_t offset) {
+        Entry& entry = entries_[static_cast<std::size_t>(kind)];
+        if (entry.count++ == 0) entry.first = offset;
+    }
+
+    /// Adds those of a later part of the text, which begins at `offset`.
+    void append(const Tally& later, std::size_t offset) {
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            if (entries_[i].count == 0) entries_[i].first = later.entries_[i].first + offset;
+            entries_[i].count += later.entries_[i].count;
+        }
+    }
+
+    const Entry& operator[](Kind kind) const { return entries_[static_cast<std::size_t>(kind)]; }
+
+  private:
+    std::array<Entry, static_cast<std::size_t>(Kind::kCount)> entries_;
+};
+
+}  // namespace duolux

@@ -1,0 +1,176 @@
+// What other programs write, wrong or not, and load.
+#include <fmt/format.h>
+
+#include <string>
+
+#include "tests/unit/scene_files.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class LenientTest : public SceneFiles {
+  protected:
+    /// Of a square, 1 2 3 4, and more statements; without that of the default light.
+    std::vector<std::string> warningsOf(const std::string& more) const {
+        return withoutLight(loadObj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + more).warnings);
+    }
+
+    std::vector<std::string> withoutLight(std::vector<std::string> warnings) const {
+        const std::string prefix = folder_.string() + "/";
+        std::vector<std::string> rest;
+        for (std::string& warning : warnings) {
+            if (warning.find("nothing emits") != std::string::npos) continue;
+            rest.push_back(warning.starts_with(prefix) ? warning.substr(prefix.size()) : warning);
+        }
+        return rest;
+    }
+
+    std::size_t smoothTriangles(const std::string& text) const {
+        const Geometry geometry = loadObj(text).geometry;
+        std::size_t count = 0;
+        for (const glm::uvec3& normals : geometry.normalIndices)
+            count += normals.x != Geometry::kNoNormal ? 1 : 0;
+        return count;
+    }
+};
+
+TEST_F(LenientTest, NormalsThatAreNotThereLeaveTrianglesFlat) {
+    EXPECT_THAT(warningsOf("f 1//1 2//2 3//3 4//4\n"),
+                ElementsAre("mesh.obj: line 5: a normal index that is 0 or out of range (and 3 more): such "
+                            "triangles are flat"));
+    EXPECT_EQ(warningsOf("vn 0 0 1\nf 1//0 2//1 3//1\nf 1//1 3//-2 4//99999999999\n").size(), 1u);
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    EXPECT_EQ(smoothTriangles(square + "vn 0 0 1\nf 1//0 2//1 3//1\nf 1//1 3//1 4//1\n"), 1u);
+    EXPECT_EQ(smoothTriangles(square + "vn nan nan nan\nvn 0 0 1\nf 1//2 2//2 3//2\nf 1//1 3//1 4//1\n"), 1u);
+}
+
+TEST_F(LenientTest, NormalsAndTextureCoordinatesThatAreNoNumbers) {
+    EXPECT_THAT(
+        warningsOf(
+            "vn nan 0 0\nvn 0 1\nvn 0 0 x\nvn 0 0 1 0\nvt\nvt u v\nvt 0 -1.#IND\nvt 1 2 3 4\nf 1 2 3\n"),
+        ElementsAre(HasSubstr("line 8: more numbers than the statement has: the last"),
+                    HasSubstr("line 5: a normal that is not three finite numbers (and 2 more): "),
+                    HasSubstr("line 9: a texture coordinate that is not one to three finite numbers "
+                              "(and 3 more): it is not used")));
+}
+
+TEST_F(LenientTest, TextureCoordinatesAreNotUsed) {
+    EXPECT_THAT(
+        warningsOf("f 1/1 2/0 3/-1\n"),
+        ElementsAre(HasSubstr("line 5: a texture coordinate index that is 0 or out of range (and 2 more)")));
+}
+
+TEST_F(LenientTest, CornersMayEndInASlash) {
+    for (const char* face : {"f 1/ 2/ 3/", "f 1// 2// 3//", "vt 0 0\nf 1/1/ 2/1/ 3/1/"}) {
+        const Scene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(face));
+        EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2));
+        EXPECT_THAT(scene.warnings[0],
+                    HasSubstr("a corner that ends in \"/\" (and 2 more): read without it"));
+    }
+    EXPECT_THAT(errorOfObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/// 2 3\n"),
+                HasSubstr("is not a corner of a face"));
+}
+
+TEST_F(LenientTest, FacesOfFewerThanThreeCornersAreLeftOut) {
+    EXPECT_THAT(warningsOf("vn 0 0 1\nf 1//1\nf\nf 1 2\nf 1 9\nf 1 2 3\n"),
+                ElementsAre("mesh.obj: line 6: a face of fewer than 3 corners (and 3 more): left out"));
+    const Scene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2\nusemtl b\nf 1 2 3\n");
+    EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "b");
+}
+
+TEST_F(LenientTest, AnEmptyMaterialSlotIsDefaultGrey) {
+    write("m.mtl", "newmtl red\nKd 1 0 0\n");
+    const Scene scene =
+        loadObj("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl \nf 1 2 3\n");
+    EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "red");
+    EXPECT_EQ(scene.materials[scene.geometry.materials[1]].name, "default");
+    EXPECT_THAT(withoutLight(scene.warnings),
+                ElementsAre("mesh.obj: line 7: usemtl without a name: its faces are grey 0.8"));
+}
+
+TEST_F(LenientTest, SmoothingByWords) {
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    EXPECT_EQ(smoothTriangles(square + "s on\nf 1 2 3 4\n"), 2u);
+    EXPECT_EQ(smoothTriangles(square + "s off\nf 1 2 3 4\n"), 0u);
+    EXPECT_EQ(smoothTriangles(square + "s null\nf 1 2 3 4\n"), 0u);
+    EXPECT_THAT(warningsOf("s on\ns off\ns 1\ns\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("line 5: a smoothing group that is")));
+}
+
+TEST_F(LenientTest, VerticesThatNoFaceUsesMayBeAnything) {
+    const Scene scene =
+        loadObj("v 0 0 0\nv 1 0 0\nv nan 0 0\nv 0 1 0\nv 1e300 0 0\nv -1.#IND 0 0\nf 1 2 4\n");
+    EXPECT_THAT(
+        withoutLight(scene.warnings),
+        ElementsAre(
+            "mesh.obj: line 3: a vertex that is not finite or too large (and 2 more): no face uses it"));
+    for (const glm::vec3& position : scene.geometry.positions)
+        EXPECT_LE(glm::length(position), 10.0f);
+}
+
+TEST_F(LenientTest, VertexColoursAreNamedOnce) {
+    EXPECT_THAT(
+        withoutLight(loadObj("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0.5 0\nf 1 2 3\n").warnings),
+        ElementsAre("mesh.obj: line 1: a vertex with a colour (and 2 more): vertex colours are not used"));
+}
+
+TEST_F(LenientTest, ZeroBytesAtTheEndAndBackslashesInCommentsDoNotMatter) {
+    const Scene scene =
+        loadObj("# C:\\models\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + std::string(16, '\0'));
+    EXPECT_EQ(scene.geometry.positions[1], glm::vec3(1, 0, 0));
+}
+
+TEST_F(LenientTest, LibrariesAreFoundAsTheyWereMeant) {
+    std::filesystem::create_directory(folder_ / "materials");
+    write("materials/red.mtl", "newmtl red\nKd 1 0 0\n");
+    write("Beside.mtl", "newmtl red\nKd 1 0 0\n");
+    for (const char* name : {".\\materials\\red.mtl", "materials\\Red.MTL", "\"materials/red.mtl\"",
+                             "beside.mtl", "C:\\work\\beside.mtl", "/no/such/folder/Beside.mtl"}) {
+        const Scene scene = loadObj(fmt::format("mtllib {}\nusemtl red\n{}", name, kTriangleObj));
+        EXPECT_EQ(scene.materials[scene.geometry.materials[0]].diffuse, glm::vec3(1, 0, 0)) << name;
+    }
+}
+
+TEST_F(LenientTest, MissingLibrariesSuggestTheOneBeside) {
+    write("cornell_box.mtl", "newmtl red\nKd 1 0 0\n");
+    const auto warning = [&](const char* lines) {
+        return withoutLight(loadObj(std::string(lines) + std::string(kTriangleObj)).warnings).at(0);
+    };
+    EXPECT_EQ(warning("mtllib cornellbox.mtl\n"),
+              "cornellbox.mtl: no such file: its materials are grey; did you mean \"cornell_box.mtl\"?");
+    EXPECT_EQ(warning("mtllib quite different.mtl\nmtllib b.mtl c.mtl\n"),
+              "quite different.mtl: no such file: its materials are grey (2 more MTL files are missing)");
+}
+
+TEST_F(LenientTest, FilesOfAnotherKindAreCalledWhatTheyAre) {
+    const std::string lfs = "version https://git-lfs.github.com/spec/v1\noid sha256:ab\nsize 12\n";
+    EXPECT_EQ(errorOfObj(lfs),
+              "mesh.obj: is a Git LFS pointer; expected the file itself, which \"git lfs pull\" fetches");
+    EXPECT_THAT(errorOfJson(lfs), StartsWith("scene.json: is a Git LFS pointer; "));
+    EXPECT_EQ(errorOfObj("ply\nformat ascii 1.0\n"), "mesh.obj: is PLY; expected a Wavefront OBJ file");
+    EXPECT_THAT(errorOfObj("solid part\n facet normal 0 0 1\n"), StartsWith("mesh.obj: is STL; "));
+    std::string stl(84 + 50, '\0');
+    stl[80] = 1;
+    EXPECT_THAT(errorOfObj(stl), StartsWith("mesh.obj: is STL; "));
+    EXPECT_THAT(errorOfObj("{\"asset\": {\"version\": \"2.0\"}}"), StartsWith("mesh.obj: is glTF; "));
+    EXPECT_THAT(errorOfJson("{\"asset\": {\"version\": \"2.0\"}}"),
+                StartsWith("scene.json: is glTF; expected a JSON scene"));
+    EXPECT_THAT(errorOfObj("{\"duolux\": 1}"), StartsWith("mesh.obj: is JSON; "));
+    EXPECT_THAT(errorOfObj(std::string("PK\x03\x04\0\0", 6)), StartsWith("mesh.obj: is a zip archive; "));
+    EXPECT_THAT(errorOfObj("\x1F\x8B\x08"), StartsWith("mesh.obj: is compressed by gzip; "));
+    EXPECT_THAT(errorOfObj("\n<!DOCTYPE html>\n"), StartsWith("mesh.obj: is an HTML page; "));
+    EXPECT_THAT(errorOfObj(std::string("\xFF\xFEv\0", 4)), StartsWith("mesh.obj: is UTF-16 text; "));
+    write("m.mtl", lfs);
+    EXPECT_THAT(withoutLight(loadObj("mtllib m.mtl\n" + std::string(kTriangleObj)).warnings),
+                ElementsAre(HasSubstr("m.mtl: is a Git LFS pointer; ")));
+}
+
+}  // namespace
+}  // namespace duolux::test

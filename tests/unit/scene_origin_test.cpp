@@ -1,0 +1,101 @@
+// Coordinates far from the origin, as georeferenced models have them.
+#include <fmt/format.h>
+
+#include "host/scene/origin.h"
+#include "tests/unit/scene_files.h"
+
+namespace duolux::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class OriginTest : public SceneFiles {
+  protected:
+    /// A triangle of 1.2 and 0.9 units whose first corner is at the given place.
+    static std::string triangleAt(const glm::dvec3& at) {
+        return fmt::format(
+            "v {0:.3f} {1:.3f} {2:.3f}\nv {3:.3f} {1:.3f} {2:.3f}\nv {0:.3f} {4:.3f} {2:.3f}\nf 1 2 3\n",
+            at.x, at.y, at.z, at.x + 1.2, at.y + 0.9);
+    }
+
+    /// A corner of a triangle in the coordinates of the file.
+    static glm::dvec3 corner(const Scene& scene, std::size_t triangle, int i) {
+        return scene.origin + glm::dvec3(scene.geometry.positions[scene.geometry.triangles[triangle][i]]);
+    }
+
+    static const glm::dvec3 kUtm;
+};
+const glm::dvec3 OriginTest::kUtm{512345.67, 4612345.671, 120.5};
+
+TEST_F(OriginTest, IsZeroUnlessTheScenesIsFarForItsExtent) {
+    const auto origin = [](const glm::dvec3& lower, const glm::dvec3& upper) {
+        return originFor({lower, upper});
+    };
+    EXPECT_EQ(originFor({}), glm::dvec3(0.0));
+    EXPECT_EQ(origin({-1, -1, -1}, {1, 1, 1}), glm::dvec3(0.0));
+    EXPECT_EQ(origin({99, 0, 0}, {100, 1, 1}), glm::dvec3(0.0));
+    EXPECT_EQ(origin({1000.2, 0, 0}, {1001.2, 1, 0.3}), glm::dvec3(1001, 1, 0));
+    EXPECT_EQ(origin({1e6 + 3, 2, 2}, {1e6 + 345, 2, 2}), glm::dvec3(1e6 + 200, 0, 0)) << "in round numbers";
+    EXPECT_EQ(origin({5, 5, 5}, {5, 5, 5}), glm::dvec3(0.0));
+}
+
+TEST_F(OriginTest, PositionsKeepWhatDoublesTell) {
+    const Scene scene = loadObj(triangleAt(kUtm));
+    EXPECT_EQ(scene.origin, glm::dvec3(512346, 4612346, 121)) << "the middle in whole numbers";
+    EXPECT_NEAR(glm::distance(corner(scene, 0, 0), kUtm), 0.0, 1e-6);
+    EXPECT_NEAR(corner(scene, 0, 1).x - corner(scene, 0, 0).x, 1.2, 1e-6);
+    EXPECT_LT(glm::length(scene.camera.target), 2.0f);
+    EXPECT_THAT(scene.warnings[0],
+                HasSubstr("coordinates are far from the origin for their extent: they are used "
+                          "less 512346, 4612346, 121"));
+    EXPECT_NE(scene.hash, loadObj(triangleAt(kUtm + 10.0)).hash);
+    EXPECT_EQ(loadObj(triangleAt({0, 0, 0})).origin, glm::dvec3(0.0));
+}
+
+TEST_F(OriginTest, VerticesThatNoFaceUsesDoNotCount) {
+    EXPECT_EQ(loadObj(triangleAt(kUtm) + "v 0 0 0\n").origin, glm::dvec3(512346, 4612346, 121));
+    EXPECT_EQ(loadObj(triangleAt({0, 0, 0}) + "v 1e7 1e7 1e7\n").origin, glm::dvec3(0.0));
+}
+
+TEST_F(OriginTest, CoordinatesBeyondTheLimitAreMovedWithin) {
+    const Scene scene = loadObj("v 3e9 0 0\nv 3000000010 0 0\nv 3e9 10 0\nf 1 2 3\n");
+    EXPECT_EQ(corner(scene, 0, 1), glm::dvec3(3000000010.0, 0, 0));
+}
+
+TEST_F(OriginTest, OneOriginForAllObjectsLightsAndTheCamera) {
+    write("far.obj", triangleAt(kUtm));
+    write("near.obj", triangleAt({0, 0, 0}));
+    const Scene scene = loadJson(R"({"duolux": 1,
+        "camera": {"position": [512346.27, 4612346.25, 124.5], "target": [512346.27, 4612346.25, 120.5]},
+        "objects": [{"mesh": "far.obj"},
+                    {"mesh": "near.obj", "transform": [1,0,0,512345.17, 0,1,0,4612345.125, 0,0,1,119, 0,0,0,1]},
+                    {"mesh": "far.obj", "transform": [1,0,0,0, 0,1,0,0, 0,0,1,0.5, 0,0,0,1]}],
+        "lights": [{"type": "rectangle", "origin": [512345.5, 4612345.5, 125.25], "edge1": [0,1,0], "edge2": [1,0,0],
+                    "emission": {"invisible": 1}}]})");
+    ASSERT_EQ(scene.geometry.triangles.size(), 5u);
+    EXPECT_GT(scene.origin.y, 4e6);
+    const auto expectCorner = [&](std::size_t triangle, const glm::dvec3& place) {
+        EXPECT_NEAR(glm::distance(corner(scene, triangle, 0), place), 0.0, 2e-6) << triangle;
+    };
+    expectCorner(0, kUtm);
+    expectCorner(1, {512345.17, 4612345.125, 119});
+    expectCorner(2, kUtm + glm::dvec3(0, 0, 0.5));
+    expectCorner(3, {512345.5, 4612345.5, 125.25});
+    EXPECT_NEAR(glm::distance(scene.origin + glm::dvec3(scene.camera.position),
+                              glm::dvec3(512346.27, 4612346.25, 124.5)),
+                0.0, 2e-6);
+}
+
+TEST_F(OriginTest, ATransformMayBringAFarMeshHome) {
+    write("far.obj", triangleAt(kUtm));
+    const Scene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "far.obj",
+        "transform": [1,0,0,-512345.67, 0,1,0,-4612345.671, 0,0,1,-120.5, 0,0,0,1]}]})");
+    EXPECT_EQ(scene.origin, glm::dvec3(0.0));
+    EXPECT_NEAR(glm::length(corner(scene, 0, 0)), 0.0, 1e-6);
+    EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("far from the origin"))));
+}
+
+}  // namespace
+}  // namespace duolux::test
