@@ -80,6 +80,23 @@ TEST_P(Resume, WithMoreSamplesGivesTheBitsOfThese) {
     EXPECT_FALSE(fewer.statistics.stopped);
 }
 
+TEST_P(Resume, GoesOnInTheUnitOfItsFilm) {
+    const Film whole = render(device(), scene(), {}).film;
+    const Film some = render(device(), scene(9), {}).film;
+    Film finer(some.width(), some.height(), some.quantum() * 0x1p-3f);
+    finer.add(some);
+    const RenderState state{finer, 0.0, 0.0, false};
+    RenderControl control;
+    control.resume = &state;
+    const Film resumed = render(device(), scene(), control).film;
+    EXPECT_EQ(resumed.quantum(), finer.quantum());
+    const RadianceImage image = resumed.resolve(), expected = whole.resolve();
+    for (std::size_t i = 0; i < image.visible.size(); ++i) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.visible[i][c], expected.visible[i][c], 1e-5f * expected.visible[i][c] + 1e-5f);
+    }
+}
+
 TEST_P(Resume, StoppedAnywhereLosesNothing) {
     // What the driver cuts short is being traced again when the render is stopped.
     const Scene panes = manyPanes();

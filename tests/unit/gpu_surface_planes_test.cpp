@@ -102,6 +102,22 @@ TEST_F(CoincidentGroups, AmongManyTilesOfOnePlane) {
         EXPECT_EQ(twice[i], twice[20002 + i]) << i;
 }
 
+// Planes on the border of two cells of a grid, which rounding puts in one or the other.
+TEST_F(CoincidentGroups, WhereRoundingPartsPlanes) {
+    for (int cell = 100; cell < 900; cell += 20) {
+        const double x = (cell + 0.75) / 4096.0, rest = std::sqrt(1.0 - x * x);
+        const glm::dvec3 normal(x, 0.6 * rest, 0.8 * rest), side(0.0, 0.8, -0.6);
+        scene_ = {};
+        turn_ = glm::dmat3(glm::cross(side, normal), side, normal);
+        const std::uint32_t wall = quad(0.0, 0.0, 10.0, 0.0);
+        const std::uint32_t decal = quad(4.6, 4.5, 1.0, 0.0);
+        const std::vector<std::uint32_t> found = groups();
+        ASSERT_FALSE(found.empty()) << cell;
+        for (const std::uint32_t i : {decal, decal + 1})
+            EXPECT_LE(found[i], wall + 1) << cell;
+    }
+}
+
 TEST_F(CoincidentGroups, CurvedSurfacesAreNone) {
     for (int i = 0; i < 200; ++i) {
         for (int k = 0; k < 100; ++k) {

@@ -111,6 +111,18 @@ TEST_F(CheckpointTest, KeepsEverything) {
     }
 }
 
+TEST(SamplesTaken, OfLightPathsAreAsManyAsBegun) {
+    Film film(kWidth, kHeight, 0x1p-29f);
+    EXPECT_EQ(samplesTaken(film), 0u);
+    film.countLightPaths(1);
+    EXPECT_EQ(samplesTaken(film), 1u);
+    film.countLightPaths(kWidth * kHeight - 1);
+    EXPECT_EQ(samplesTaken(film), 1u);
+    film.countLightPaths(1);
+    EXPECT_EQ(samplesTaken(film), 2u);
+    EXPECT_EQ(samplesTaken(someFilm(false)), 14u * 0x01010101u);
+}
+
 TEST_F(CheckpointTest, ADamagedFileIsRefused) {
     writeCheckpoint(file_, someOrigin(), someFilm(true), someStatistics());
     const std::string good = readFile(file_);

@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host/render/render.h"
+#include "tests/support/cornell.h"
+#include "tests/support/device.h"
+
+// What the renderer says of its last bounces, by which it warns of a limit that cuts light off. The paths of
+// renders that differ in the limit alone are the same up to there, so that the means differ by one bounce.
+
+namespace duolux::test {
+
+namespace {
+
+class Bounces : public testing::TestWithParam<Integrator> {};
+
+TEST_P(Bounces, LastAndPreviousAreWhatTheyAdd) {
+    Scene scene = mixedCornellBox();
+    scene.render.width = scene.render.height = 16;
+    scene.render.spp = 64;
+    scene.render.integrator = GetParam();
+    RenderStatistics statistics[4];
+    for (std::uint32_t bounces = 1; bounces < 4; ++bounces) {
+        scene.render.bounces = bounces;
+        statistics[bounces] = render(device(), scene).statistics;
+    }
+    const double last = statistics[3].meanRadiance - statistics[2].meanRadiance;
+    const double previous = statistics[2].meanRadiance - statistics[1].meanRadiance;
+    EXPECT_GT(last, 0.0);
+    EXPECT_GT(previous, 1.2 * last);
+    EXPECT_NEAR(statistics[3].lastBounceRadiance, last, 1e-3 * last);
+    EXPECT_NEAR(statistics[3].previousBounceRadiance, previous, 1e-3 * previous);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Bounces, testing::Values(Integrator::kPath, Integrator::kLight),
+                         [](const auto& test) { return test.param == Integrator::kPath ? "Path" : "Light"; });
+
+}  // namespace
+
+}  // namespace duolux::test
