@@ -62,6 +62,15 @@ EmitterSummary summariseEmitters(const Scene& scene) {
     return summary;
 }
 
+bool anySurfaceScatters(const Scene& scene) {
+    return std::ranges::any_of(scene.geometry.materials, [&](std::uint32_t index) {
+        const Material& material = scene.materials[index];
+        const LightMatrix& o = scene.reflectanceOf(material).opaque;
+        const glm::vec3 scattered = material.diffuse * (o.m00 + o.m01 + o.m10 + o.m11);
+        return glm::any(glm::greaterThan(scattered, glm::vec3(0.0f)));
+    });
+}
+
 bool seriesMayGrow(const Scene& scene) {
     std::vector<bool> used(scene.materials.size());
     for (const std::uint32_t material : scene.geometry.materials)

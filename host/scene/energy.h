@@ -35,6 +35,9 @@ struct EmitterSummary {
 };
 EmitterSummary summariseEmitters(const Scene& scene);
 
+/// Some surface scatters: its albedo and its matrix O are not all 0. Without one a lamp would light nothing.
+bool anySurfaceScatters(const Scene& scene);
+
 /// Some surface may make the terms of the series of bounces larger and larger.
 bool seriesMayGrow(const Scene& scene);
 

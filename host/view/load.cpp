@@ -82,8 +82,8 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
     if (camera.position) *camera.position -= scene.origin;
     if (camera.target) *camera.target -= scene.origin;
     const bool emits = anyEmitter(scene);
-    const bool mayAddLamp =
-        choices.lamp == Lamp::kAlways || (choices.lamp == Lamp::kIfDark && !read.hasLights);
+    const bool mayAddLamp = choices.lamp == Lamp::kAlways ||
+                            (choices.lamp == Lamp::kIfDark && !read.hasLights && anySurfaceScatters(scene));
     if (camera.complete() && !mayAddLamp) {
         scene.camera = completeCamera(camera);
         if (!emits) scene.warnings.emplace_back(kNothingEmits);

@@ -12,7 +12,8 @@ namespace duolux {
 
 /// Whether a lamp is added to a scene.
 enum class Lamp : std::uint8_t {
-    kIfDark,  ///< where nothing emits, or too little to matter, and the scene's file does not list lights
+    kIfDark,  ///< where nothing emits, or too little to matter, some surface scatters, and the scene's file
+              ///< does not list lights
     kAlways,
     kNever
 };

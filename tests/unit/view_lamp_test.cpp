@@ -95,6 +95,19 @@ TEST_F(LightTest, AnUnusedEmitterDoesNotCount) {
     expectDefaultLight(loadObj("mtllib m.mtl\n" + std::string(kTriangleObj)));
 }
 
+TEST_F(LightTest, IsNotAddedWhereNoSurfaceScatters) {
+    write("m.mtl", "newmtl black\nKd 0 0 0\nnewmtl dim\nKd 0 0 0\nKe 0.01 0 0\n");
+    write("mesh.obj", "mtllib m.mtl\nusemtl black\n" + std::string(kTriangleObj));
+    const Scene dark = load("mesh.obj");
+    EXPECT_EQ(dark.geometry.triangles.size(), 1u);
+    EXPECT_THAT(dark.warnings, testing::ElementsAre(HasSubstr("the picture will be black")));
+    // Surfaces that only pass light on, before a dim emitter that is seen as it is.
+    write("mesh.obj", "mtllib m.mtl\nusemtl dim\n" + std::string(kTriangleObj) + "usemtl grey\nf 1 3 2\n");
+    const Scene seen = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "reflectance":
+        {"opaque": [[0, 0], [0, 0]], "transparent": [[1, 0], [0, 1]]}})");
+    EXPECT_EQ(seen.geometry.triangles.size(), 2u);
+}
+
 TEST_F(LightTest, JsonThatSaysLightsGetsNoOther) {
     write("mesh.obj", kTriangleObj);
     const Scene dark = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "lights": []})");
