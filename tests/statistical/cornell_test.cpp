@@ -93,7 +93,9 @@ TEST_P(Cornell, MatchesReference) {
                     {.lightPaths = true});
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Cornell, testing::ValuesIn(cornellCases()),
+INSTANTIATE_TEST_SUITE_P(Often, Cornell, testing::ValuesIn(everyOther(cornellCases(), 0)),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Nightly, Cornell, testing::ValuesIn(everyOther(cornellCases(), 1)),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

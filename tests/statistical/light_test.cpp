@@ -8,8 +8,8 @@
 
 #include "host/base/temporary_folder.h"
 #include "host/render/render.h"
-#include "host/view/load.h"
 #include "host/scene/two_spheres.h"
+#include "host/view/load.h"
 #include "tests/statistical/films.h"
 #include "tests/statistical/renders.h"
 #include "tests/support/cornell.h"
@@ -39,7 +39,9 @@ std::vector<ExactCase> casesForLight() {
     return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LightExact, testing::ValuesIn(casesForLight()),
+INSTANTIATE_TEST_SUITE_P(Often, LightExact, testing::ValuesIn(everyOther(casesForLight(), 0)),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Nightly, LightExact, testing::ValuesIn(everyOther(casesForLight(), 1)),
                          [](const auto& test) { return test.param.name; });
 
 struct PairCase {
@@ -159,7 +161,9 @@ TEST_P(Pair, GatheringAndShootingAgree) {
                     estimatesOf(renderSeeds(pair.scene, 64, 24, 1000)), {.lightPaths = true});
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Pair, testing::ValuesIn(pairCases()),
+INSTANTIATE_TEST_SUITE_P(Often, Pair, testing::ValuesIn(everyOther(pairCases(), 0)),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Nightly, Pair, testing::ValuesIn(everyOther(pairCases(), 1)),
                          [](const auto& test) { return test.param.name; });
 
 /// Light of which both components arrive alike must be connected whatever the display shows of them: roulette

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,16 @@ std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t sp
 
 /// The same by light paths.
 Renders renderByLight(Scene scene, std::uint32_t spp, std::uint32_t seeds);
+
+/// Every second of the cases, beginning with the `first`. Where cases take long, those with an even number
+/// run every time, the others nightly.
+template <typename Case>
+std::vector<Case> everyOther(const std::vector<Case>& cases, std::size_t first) {
+    std::vector<Case> chosen;
+    for (std::size_t i = first; i < cases.size(); i += 2)
+        chosen.push_back(cases[i]);
+    return chosen;
+}
 
 /// Means over the renders, with their variances.
 reference::Estimates estimatesOf(const Renders& renders);
