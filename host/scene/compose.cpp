@@ -65,16 +65,19 @@ bool isRegular(const glm::dmat3& matrix) {
     return std::isfinite(lengths) && std::abs(glm::determinant(matrix)) > 1e-9 * lengths;
 }
 
-bool transformGeometry(Geometry& geometry, const glm::dmat4& transform) {
+bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* roundingError) {
     const glm::dmat3 linear(transform);
     const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
     bool inRange = true;
+    glm::dvec3 error(0.0);
     for (glm::vec3& position : geometry.positions) {
         const glm::dvec3 world(transform * glm::dvec4(glm::dvec3(position), 1.0));
         inRange = inRange && glm::all(glm::lessThanEqual(
                                  glm::abs(world), glm::dvec3(static_cast<double>(kLargestCoordinate))));
         position = glm::vec3(world);
+        error = glm::max(error, glm::abs(world - glm::dvec3(position)));
     }
+    if (roundingError != nullptr) *roundingError = std::max({error.x, error.y, error.z});
     for (glm::vec3& normal : geometry.normals) {
         const glm::dvec3 world = normalMatrix * glm::dvec3(normal);
         const double length = glm::length(world);
@@ -90,11 +93,12 @@ bool transformGeometry(Geometry& geometry, const glm::dmat4& transform) {
     return inRange;
 }
 
-bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneOrigin) {
+bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneOrigin,
+               double* roundingError) {
     glm::dmat4 local = transform;
     local[3] = transform * glm::dvec4(mesh.origin, 1.0) - glm::dvec4(sceneOrigin, 0.0);
     mesh.origin = sceneOrigin;
-    return local == glm::dmat4(1.0) || transformGeometry(mesh.geometry, local);
+    return local == glm::dmat4(1.0) || transformGeometry(mesh.geometry, local, roundingError);
 }
 
 Composer::Composer(Scene& scene) : scene_(scene) {
@@ -171,8 +175,7 @@ void setOrigin(Scene& scene, const glm::dvec3& origin) {
     scene.origin = origin;
     if (origin == glm::dvec3(0.0)) return;
     scene.warnings.push_back(
-        fmt::format("{}: coordinates are far from the origin for their extent: they are used less {:.10g}, "
-                    "{:.10g}, {:.10g}",
+        fmt::format("{}: coordinates are far from the origin for their extent: they are used less {}, {}, {}",
                     scene.source.string(), origin.x, origin.y, origin.z));
 }
 

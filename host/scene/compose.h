@@ -15,12 +15,13 @@ namespace duolux {
 
 /// Object to world. Normals go by the inverse transpose; a mirroring transform turns the winding so that
 /// fronts stay fronts. The upper left 3x3 must be regular. Returns false if a coordinate exceeds
-/// kLargestCoordinate.
-bool transformGeometry(Geometry& geometry, const glm::dmat4& transform);
+/// kLargestCoordinate. `roundingError`: how far rounding moves a position at most.
+bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* roundingError = nullptr);
 
 /// Places a mesh, in the coordinates of its file, in a scene of the given origin, which becomes the mesh's.
 /// Returns false if a coordinate exceeds kLargestCoordinate there.
-bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneOrigin);
+bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneOrigin,
+               double* roundingError = nullptr);
 
 /// Determinant far from 0, measured by the lengths of the columns.
 bool isRegular(const glm::dmat3& matrix);

@@ -20,7 +20,7 @@
 #include "host/scene/json_text.h"
 #include "host/scene/mesh.h"
 #include "host/scene/nearest_name.h"
-#include "host/scene/origin.h"
+#include "host/scene/scene_contents.h"
 
 namespace duolux {
 
@@ -125,24 +125,7 @@ fs::path readMeshPath(const JsonNode& node) {
     return file;
 }
 
-/// What "objects" and "lights" hold, in the coordinates of the files, until the scene's origin is known.
-struct Contents {
-    struct Object {
-        JsonNode node;
-        std::size_t mesh;
-        std::optional<glm::dmat4> transform;
-    };
-    struct Light {
-        glm::dvec3 corner;
-        glm::vec3 edge1, edge2;
-        Material material;
-    };
-    std::vector<Mesh> meshes;  ///< each file once, however many objects use it
-    std::vector<Object> objects;
-    std::vector<Light> lights;
-};
-
-void readObjects(const JsonNode& node, Reading reading, Contents& contents) {
+void readObjects(const JsonNode& node, Reading reading, SceneContents& contents) {
     std::map<fs::path, std::size_t> meshes;
     for (const JsonNode& object : node.elements("expected an array of objects")) {
         object.expectKeys({"mesh", "transform"});
@@ -156,15 +139,16 @@ void readObjects(const JsonNode& node, Reading reading, Contents& contents) {
     }
 }
 
-void readLight(const JsonNode& node, Contents& contents) {
+void readLight(const JsonNode& node, SceneContents& contents) {
     constexpr double kSmallestSine = 1e-6;
     node.expectKeys({"type", "origin", "edge1", "edge2", "emission", "reflectance"});
     static const std::array<std::string, 1> kTypes{"rectangle"};
     node.require("type", "expected \"rectangle\"").choice(kTypes);
-    Contents::Light light{readPoint(node.require("origin", pointRemedy())),
-                          glm::vec3(readPoint(node.require("edge1", pointRemedy()))),
-                          glm::vec3(readPoint(node.require("edge2", pointRemedy()))),
-                          {}};
+    SceneContents::Light light{node,
+                               readPoint(node.require("origin", pointRemedy())),
+                               glm::vec3(readPoint(node.require("edge1", pointRemedy()))),
+                               glm::vec3(readPoint(node.require("edge2", pointRemedy()))),
+                               {}};
     if (sineBetween(light.edge1, light.edge2) < kSmallestSine) {
         node.fail("edge1 and edge2 span no area", "expected two directions across each other");
     }
@@ -175,55 +159,6 @@ void readLight(const JsonNode& node, Contents& contents) {
     if (const auto reflectance = node.find("reflectance"))
         material.reflectance = readReflectance(*reflectance);
     contents.lights.push_back(std::move(light));
-}
-
-/// Of all objects (by the corners of their bounds) and lights.
-WideBounds boundsOf(const Contents& contents) {
-    std::vector<Bounds> meshBounds;
-    for (const Mesh& mesh : contents.meshes)
-        meshBounds.push_back(boundsOf(mesh.geometry));
-    WideBounds bounds;
-    for (const auto& [node, mesh, transform] : contents.objects) {
-        const auto& [lower, upper] = meshBounds[mesh];
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 position(corner & 1 ? lower.x : upper.x, corner & 2 ? lower.y : upper.y,
-                                     corner & 4 ? lower.z : upper.z);
-            const glm::dvec3 placed = contents.meshes[mesh].origin + glm::dvec3(position);
-            bounds.add(transform ? glm::dvec3(*transform * glm::dvec4(placed, 1.0)) : placed);
-        }
-    }
-    for (const auto& [corner, edge1, edge2, material] : contents.lights) {
-        for (const glm::vec3& edge : {glm::vec3(0.0f), edge1, edge2, edge1 + edge2})
-            bounds.add(corner + glm::dvec3(edge));
-    }
-    return bounds;
-}
-
-void appendObjects(Contents& contents, Scene& scene) {
-    Composer composer(scene);
-    std::vector<std::size_t> uses(contents.meshes.size(), 0);
-    for (const Contents::Object& object : contents.objects)
-        ++uses[object.mesh];
-    for (const auto& [node, index, transform] : contents.objects) {
-        Mesh& read = contents.meshes[index];
-        Mesh mesh = --uses[index] == 0 ? std::move(read) : read;
-        read.warnings.clear();
-        read.bytes = 0;
-        read.files.clear();
-        if (!placeMesh(mesh, transform.value_or(glm::dmat4(1.0)), scene.origin)) {
-            node.fail("moves the mesh out of range",
-                      fmt::format("expected coordinates of at most {:g} in magnitude", kLargestCoordinate));
-        }
-        composer.append(std::move(mesh));
-    }
-    composer.finish();
-}
-
-void appendLights(const Contents& contents, Scene& scene) {
-    Composer composer(scene);
-    for (const auto& [corner, edge1, edge2, material] : contents.lights)
-        composer.append({glm::vec3(corner - scene.origin), edge1, edge2}, material);
-    composer.finish();
 }
 
 void readMaterials(const JsonNode& node, Scene& scene) {
@@ -264,14 +199,14 @@ SceneFile readJsonScene(const fs::path& path, Reading reading) {
     if (const auto display = root.find("display")) scene.display = readDisplay(*display);
     const auto reflectance = root.find("reflectance");
     scene.reflectance = reflectance ? readReflectance(*reflectance) : *presetReflectance("global");
-    Contents contents;
+    SceneContents contents;
     if (const auto objects = root.find("objects")) readObjects(*objects, reading, contents);
     const auto lights = root.find("lights");
     if (lights) {
         for (const JsonNode& light : lights->elements("expected an array of lights"))
             readLight(light, contents);
     }
-    setOrigin(scene, originFor(boundsOf(contents)));
+    setOrigin(scene, originOf(contents));
     appendObjects(contents, scene);
     if (const auto materials = root.find("materials")) readMaterials(*materials, scene);
     const std::size_t meshTriangles = scene.geometry.triangles.size();

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -163,6 +165,12 @@ Mesh loadObj(const fs::path& path, Reading reading) {
         mesh.bytes = text.size();
         file = parseObj(text, reading);
         warnOfOddities(text, file.oddities, mesh.warnings);
+    }
+    if (file.loss.vertices > 0) {
+        mesh.warnings.push_back(
+            fmt::format("{}: single precision moves {} vert{} by up to {:.2g}; typical edges are {:.2g} long",
+                        path.string(), file.loss.vertices, file.loss.vertices == 1 ? "ex" : "ices",
+                        file.loss.largest, file.loss.typicalEdge));
     }
     ObjMaterials materials(path, reading);
     for (const ObjPart& part : file.parts) {

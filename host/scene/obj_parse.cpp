@@ -90,7 +90,13 @@ class Positions {
 
     /// Makes them floats around the file's origin.
     void round(Reading reading) {
-        file_.origin = originFor(usedBounds());
+        const double tolerance = kUnnoticed * typicalEdge();
+        WideBounds all;
+        for (const glm::dvec3& value : values_)
+            all.add(value);
+        const WideBounds bounds = usedBounds(all);
+        const bool mayLose = !all.empty() && largestRoundingError(all.reach()) > tolerance;
+        file_.origin = mayLose ? originFor(bounds, samples(tolerance)) : originFor(bounds);
         file_.positions.resize(values_.size());
         bool inRange = true;
         const auto largest = static_cast<double>(kLargestCoordinate);
@@ -100,6 +106,7 @@ class Positions {
             file_.positions[i] = glm::vec3(position);
         }
         if (!inRange) settleFarVertices(reading);
+        if (mayLose) measureLoss(tolerance);
     }
 
   private:
@@ -114,10 +121,7 @@ class Positions {
 
     /// Bounds of the vertices that faces use, or of some of them if these are so far apart that there is no
     /// need of an origin.
-    WideBounds usedBounds() const {
-        WideBounds all;
-        for (const glm::dvec3& value : values_)
-            all.add(value);
+    WideBounds usedBounds(const WideBounds& all) const {
         WideBounds bounds;
         for (const ObjPart& part : file_.parts) {
             for (const std::uint32_t vertex : part.cornerVertices) {
@@ -126,6 +130,47 @@ class Positions {
             }
         }
         return bounds;
+    }
+
+    /// The median of two edges each of many faces.
+    double typicalEdge() const {
+        constexpr std::size_t kMost = 4096;
+        std::size_t faces = 0;
+        for (const ObjPart& part : file_.parts)
+            faces += part.faceEnds.size();
+        std::vector<double> lengths;
+        for (const ObjPart& part : file_.parts) {
+            for (std::size_t face = 0; face < part.faceEnds.size(); face += faces / kMost + 1) {
+                const std::uint32_t* corner = &part.cornerVertices[part.faceEnds[face] - 3];
+                for (int i = 0; i < 2; ++i)
+                    lengths.push_back(glm::distance(values_[corner[i]], values_[corner[i + 1]]));
+            }
+        }
+        return medianOf(std::move(lengths));
+    }
+
+    std::vector<OriginSample> samples(double tolerance) const {
+        constexpr std::size_t kMost = 1u << 16;
+        std::size_t corners = 0;
+        for (const ObjPart& part : file_.parts)
+            corners += part.cornerVertices.size();
+        std::vector<OriginSample> samples;
+        for (const ObjPart& part : file_.parts) {
+            for (std::size_t i = 0; i < part.cornerVertices.size(); i += corners / kMost + 1)
+                samples.push_back({values_[part.cornerVertices[i]], tolerance});
+        }
+        return samples;
+    }
+
+    void measureLoss(double tolerance) {
+        const std::vector<bool> used = usedVertices();
+        RoundingLoss& loss = file_.loss;
+        loss.typicalEdge = tolerance / kUnnoticed;
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            const double error = used[i] ? roundingError(values_[i] - file_.origin) : 0.0;
+            loss.vertices += error > tolerance ? 1 : 0;
+            loss.largest = std::max(loss.largest, error);
+        }
     }
 
     void settleFarVertices(Reading reading) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -10,12 +11,20 @@
 
 namespace duolux {
 
+/// What rounding to floats does to the vertices that faces use.
+struct RoundingLoss {
+    std::size_t vertices = 0;  ///< that it moves by more than kUnnoticed of a typical edge
+    double largest = 0.0;      ///< how far
+    double typicalEdge = 0.0;
+};
+
 struct ObjFile {
     std::vector<glm::vec3> positions;  ///< less `origin`
     glm::dvec3 origin{0.0};            ///< see originFor
-    std::vector<glm::vec3> normals;    ///< unit length, or zero where the file has none that can be used
-    std::vector<ObjPart> parts;        ///< in the order of the file
-    Tally<ObjOddity> oddities;         ///< of all parts
+    RoundingLoss loss;
+    std::vector<glm::vec3> normals;  ///< unit length, or zero where the file has none that can be used
+    std::vector<ObjPart> parts;      ///< in the order of the file
+    Tally<ObjOddity> oddities;       ///< of all parts
 };
 
 /// Reads the statements of an OBJ file, on all cores. Throws InputError for the first that cannot be used.

@@ -35,7 +35,8 @@ TEST_F(OriginTest, IsZeroUnlessTheScenesIsFarForItsExtent) {
     };
     EXPECT_EQ(originFor({}), glm::dvec3(0.0));
     EXPECT_EQ(origin({-1, -1, -1}, {1, 1, 1}), glm::dvec3(0.0));
-    EXPECT_EQ(origin({99, 0, 0}, {100, 1, 1}), glm::dvec3(0.0));
+    EXPECT_EQ(origin({7, 0, 0}, {8, 1, 1}), glm::dvec3(0.0));
+    EXPECT_EQ(origin({99, 0, 0}, {100, 1, 1}), glm::dvec3(100, 1, 1));
     EXPECT_EQ(origin({1000.2, 0, 0}, {1001.2, 1, 0.3}), glm::dvec3(1001, 1, 0));
     EXPECT_EQ(origin({1e6 + 3, 2, 2}, {1e6 + 345, 2, 2}), glm::dvec3(1e6 + 200, 0, 0)) << "in round numbers";
     EXPECT_EQ(origin({5, 5, 5}, {5, 5, 5}), glm::dvec3(0.0));
@@ -95,6 +96,59 @@ TEST_F(OriginTest, ATransformMayBringAFarMeshHome) {
     EXPECT_EQ(scene.origin, glm::dvec3(0.0));
     EXPECT_NEAR(glm::length(corner(scene, 0, 0)), 0.0, 1e-6);
     EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("far from the origin"))));
+}
+
+/// A landscape of 60 km with vertices every 3 km, as a survey writes it.
+std::string landscape() {
+    std::string text;
+    for (int row = 0; row < 21; ++row) {
+        for (int column = 0; column < 21; ++column)
+            text += fmt::format("v {:.2f} {:.2f} {:.2f}\n", 300000.13 + 3000 * column,
+                                5400000.37 + 3000 * row, 100.25 + 7 * ((row * column) % 5));
+    }
+    for (int at = 1; at < 420; ++at)
+        if (at % 21 != 0) text += fmt::format("f {} {} {} {}\n", at, at + 1, at + 22, at + 21);
+    return text;
+}
+
+TEST_F(OriginTest, ALandscapeOfUtmCoordinatesKeepsItsCentimetres) {
+    const Scene scene = loadObj(landscape());
+    EXPECT_NE(scene.origin, glm::dvec3(0.0));
+    EXPECT_NEAR(glm::distance(corner(scene, 0, 0), glm::dvec3(300000.13, 5400000.37, 100.25)), 0.0, 3e-3);
+    EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("single precision"))));
+}
+
+TEST_F(OriginTest, AStrayTriangleDoesNotCostAllOthersTheirDigits) {
+    std::string pyramid;
+    for (const glm::dvec3& offset : {glm::dvec3(0, 0, 0), glm::dvec3(7.3, 0, 0), glm::dvec3(7.3, 7.3, 0),
+                                     glm::dvec3(0, 7.3, 0), glm::dvec3(3.7, 3.7, 4.4)}) {
+        const glm::dvec3 place = kUtm + offset;
+        pyramid += fmt::format("v {:.3f} {:.3f} {:.3f}\n", place.x, place.y, place.z);
+    }
+    pyramid += "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+    const Scene scene = loadObj(pyramid + "v 0 0 0\nv 1.3 0 0\nv 0 1.3 0\nf 6 7 8\n");
+    EXPECT_NEAR(glm::distance(corner(scene, 0, 0), kUtm), 0.0, 1e-3);
+    EXPECT_NEAR(glm::distance(corner(scene, 1, 1), kUtm + glm::dvec3(7.3, 7.3, 0)), 0.0, 1e-3);
+    EXPECT_THAT(scene.warnings,
+                Contains(HasSubstr("mesh.obj: single precision moves 2 vertices by up to 0.2")));
+}
+
+TEST_F(OriginTest, FineDetailFarApartLosesWithAWarning) {
+    const Scene scene = loadObj(triangleAt(kUtm) + "v 0.1 0 0\nv 1.3 0 0\nv 0.1 0.9 0\nf 4 5 6\n");
+    EXPECT_THAT(scene.warnings,
+                Contains(HasSubstr("moves 3 vertices by up to 0.17; typical edges are 1.5 long")));
+}
+
+TEST_F(OriginTest, ObjectsFarApartWarnOfTheOneThatLoses) {
+    write("far.obj", triangleAt(kUtm));
+    write("near.obj", triangleAt({0.1, 0.2, 0.3}));
+    const Scene scene = loadJson(
+        R"({"duolux": 1, "objects": [{"mesh": "near.obj"}, {"mesh": "far.obj"}, {"mesh": "far.obj"}]})");
+    EXPECT_NEAR(glm::distance(corner(scene, 1, 0), kUtm), 0.0, 1e-4) << "the place of most triangles";
+    EXPECT_THAT(scene.warnings,
+                Contains(HasSubstr("scene.json: objects[0]: single precision moves vertices by up to 0.2")));
+    const Scene together = loadJson(R"({"duolux": 1, "objects": [{"mesh": "far.obj"}]})");
+    EXPECT_THAT(together.warnings, Not(Contains(HasSubstr("single precision"))));
 }
 
 }  // namespace
