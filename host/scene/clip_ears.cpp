@@ -1,7 +1,10 @@
 #include "host/scene/clip_ears.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -28,6 +31,9 @@ class PointTree {
         nodes_.resize(2 * nodes);
         leafOf_.resize(points.size());
         on_.assign(points.size(), false);
+        constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
+        for (const glm::dvec2& point : points)
+            slack_ = std::max({slack_, kRounding * std::abs(point.x), kRounding * std::abs(point.y)});
         build(1, 0, points.size());
     }
 
@@ -47,6 +53,8 @@ class PointTree {
             const std::size_t index = stack[--depth];
             const Node& node = nodes_[index];
             if (node.on == 0 || !mayOverlap(node, a, b, c)) continue;
+            // Any number of points may lie where a corner does.
+            if (node.lower == node.upper && !contains(a, b, c, node.lower)) continue;
             if (node.isLeaf) {
                 for (std::size_t i = node.begin; i < node.end; ++i) {
                     const std::uint32_t point = order_[i];
@@ -63,22 +71,27 @@ class PointTree {
   private:
     static constexpr std::size_t kLeaf = 8;
 
+    /// Points lie in two boxes: one along the axes, and one along the points' own direction, because a long
+    /// thin triangle along a slanting line of points meets every box along the axes there.
     struct Node {
         glm::dvec2 lower, upper;
-        std::size_t begin = 0, end = 0;  ///< in order_
-        std::ptrdiff_t on = 0;           ///< how many points are
+        glm::dvec2 along{1.0, 0.0};         ///< unit length
+        glm::dvec2 ownLower, ownUpper;      ///< (along, across)
+        std::array<glm::dvec2, 4> corners;  ///< of the box of its own
+        std::size_t begin = 0, end = 0;     ///< in order_
+        std::ptrdiff_t on = 0;              ///< how many points are
         bool isLeaf = true;
+
+        glm::dvec2 own(const glm::dvec2& p) const {
+            return {along.x * p.x + along.y * p.y, along.x * p.y - along.y * p.x};
+        }
     };
 
     void build(std::size_t index, std::size_t begin, std::size_t end) {
         Node& node = nodes_[index];
         node.begin = begin;
         node.end = end;
-        node.lower = node.upper = points_[order_[begin]];
-        for (std::size_t i = begin; i < end; ++i) {
-            node.lower = glm::min(node.lower, points_[order_[i]]);
-            node.upper = glm::max(node.upper, points_[order_[i]]);
-        }
+        bound(node);
         node.isLeaf = end - begin <= kLeaf;
         if (node.isLeaf) {
             for (std::size_t i = begin; i < end; ++i)
@@ -98,19 +111,57 @@ class PointTree {
         build(2 * index + 1, middle, end);
     }
 
-    /// False if the box lies beyond one of the triangle's sides or outside its bounds.
+    void bound(Node& node) const {
+        glm::dvec2 mean(0.0);
+        node.lower = node.upper = points_[order_[node.begin]];
+        for (std::size_t i = node.begin; i < node.end; ++i) {
+            const glm::dvec2& point = points_[order_[i]];
+            node.lower = glm::min(node.lower, point);
+            node.upper = glm::max(node.upper, point);
+            mean += point / static_cast<double>(node.end - node.begin);
+        }
+        // The direction in which the points spread most: the larger eigenvector of their covariance.
+        double xx = 0.0, xy = 0.0, yy = 0.0;
+        for (std::size_t i = node.begin; i < node.end; ++i) {
+            const glm::dvec2 d = points_[order_[i]] - mean;
+            xx += d.x * d.x;
+            xy += d.x * d.y;
+            yy += d.y * d.y;
+        }
+        const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+        node.along = {std::cos(angle), std::sin(angle)};
+        node.ownLower = node.ownUpper = node.own(points_[order_[node.begin]]);
+        for (std::size_t i = node.begin; i < node.end; ++i) {
+            node.ownLower = glm::min(node.ownLower, node.own(points_[order_[i]]));
+            node.ownUpper = glm::max(node.ownUpper, node.own(points_[order_[i]]));
+        }
+        // Rounding of products and of the direction must leave no point outside.
+        node.ownLower -= slack_;
+        node.ownUpper += slack_;
+        const auto corner = [&](double u, double v) {
+            return glm::dvec2(node.along.x * u - node.along.y * v, node.along.y * u + node.along.x * v);
+        };
+        node.corners = {corner(node.ownLower.x, node.ownLower.y), corner(node.ownUpper.x, node.ownLower.y),
+                        corner(node.ownUpper.x, node.ownUpper.y), corner(node.ownLower.x, node.ownUpper.y)};
+    }
+
+    static bool areApart(const glm::dvec2& lower, const glm::dvec2& upper, const glm::dvec2& a,
+                         const glm::dvec2& b, const glm::dvec2& c) {
+        return glm::any(glm::lessThan(glm::max(glm::max(a, b), c), lower)) ||
+               glm::any(glm::lessThan(upper, glm::min(glm::min(a, b), c)));
+    }
+
+    /// False if a side of the triangle or of one of the boxes separates them.
     static bool mayOverlap(const Node& box, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-        const glm::dvec2 lower = glm::min(glm::min(a, b), c), upper = glm::max(glm::max(a, b), c);
-        if (glm::any(glm::lessThan(upper, box.lower)) || glm::any(glm::lessThan(box.upper, lower)))
-            return false;
-        return !isBeyond(box, a, b) && !isBeyond(box, b, c) && !isBeyond(box, c, a);
+        return !areApart(box.lower, box.upper, a, b, c) &&
+               !areApart(box.ownLower, box.ownUpper, box.own(a), box.own(b), box.own(c)) &&
+               !isBeyond(box, a, b) && !isBeyond(box, b, c) && !isBeyond(box, c, a);
     }
 
     /// All corners of the box, and so all its points, are on the outer side.
     static bool isBeyond(const Node& box, const glm::dvec2& from, const glm::dvec2& to) {
-        return turnAt(from, to, box.lower) < 0.0 && turnAt(from, to, box.upper) < 0.0 &&
-               turnAt(from, to, {box.lower.x, box.upper.y}) < 0.0 &&
-               turnAt(from, to, {box.upper.x, box.lower.y}) < 0.0;
+        return std::all_of(box.corners.begin(), box.corners.end(),
+                           [&](const glm::dvec2& corner) { return turnAt(from, to, corner) < 0.0; });
     }
 
     const std::vector<glm::dvec2>& points_;
@@ -118,6 +169,7 @@ class PointTree {
     std::vector<Node> nodes_;
     std::vector<std::size_t> leafOf_;
     std::vector<bool> on_;
+    double slack_ = 0.0;
 };
 
 class EarClipper {

@@ -153,12 +153,17 @@ std::vector<Triangle> clipByDefinition(const std::vector<glm::dvec2>& points) {
 
 TEST(Triangulate, ClipsEarsAsDefined) {
     std::mt19937 random(11);
-    for (int round = 0; round < 400; ++round) {
+    for (int round = 0; round < 600; ++round) {
         // Points of a coarse grid: many on one line, many the same, and polygons that cross themselves.
         std::uniform_int_distribution<int> coordinate(0, round % 2 == 0 ? 5 : 1000);
         std::vector<glm::dvec2> points(static_cast<std::size_t>(5 + round % 40));
         for (glm::dvec2& point : points)
             point = glm::dvec2(coordinate(random), coordinate(random));
+        // Slanting lines of points, without rounding.
+        if (round % 3 == 0) {
+            for (glm::dvec2& point : points)
+                point = {13 * point.x + point.y, 7 * point.x - 2 * point.y};
+        }
         std::vector<Triangle> triangles;
         clipEars(points, triangles);
         ASSERT_EQ(triangles, clipByDefinition(points)) << "round " << round;
@@ -198,6 +203,41 @@ TEST(Triangulate, TimeGrowsWithTheCorners) {
     EXPECT_LT(secondsFor(spiral), kMost);
     EXPECT_LT(secondsFor(tangle), kMost);
     expectTiling(wave);
+}
+
+TEST(Triangulate, LinesAcrossTheAxesTakeNoLonger) {
+    constexpr int kCorners = 100'000;
+    constexpr double kMost = 3.0;  // some tenths of a second, where boxes along the axes take 10 to 50
+    std::vector<glm::dvec2> zigzag, curve, slope;
+    for (int i = 0; i < kCorners; ++i) {
+        const double e = i % 2 == 1 ? 0.001 : 0.0, bend = i - kCorners / 2;
+        zigzag.emplace_back(i + e, i - e);
+        curve.emplace_back(i, i - 1e-9 * bend * bend);
+        slope.emplace_back(i + 0.3 * e, 0.37 * i - e - 1e-8 * bend * bend);
+    }
+    for (std::vector<glm::dvec2>* points : {&zigzag, &curve, &slope}) {
+        points->emplace_back(kCorners, points == &curve ? -10 : kCorners + 5);
+        if (points != &curve) points->emplace_back(0, kCorners);
+        double area = 0.0;
+        for (std::size_t i = 0; i < points->size(); ++i)
+            area += turnAt({0, 0}, (*points)[i], (*points)[(i + 1) % points->size()]);
+        if (area < 0.0) std::reverse(points->begin(), points->end());
+        std::vector<Triangle> triangles;
+        const std::clock_t start = std::clock();
+        clipEars(*points, triangles);
+        EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, kMost);
+        double sum = 0.0;
+        for (const auto& [a, b, c] : triangles)
+            sum += turnAt((*points)[a], (*points)[b], (*points)[c]);
+        EXPECT_NEAR(sum, std::abs(area), 1e-6 * std::abs(area));
+    }
+}
+
+TEST(Triangulate, CornersAtTheSamePlacesTakeNoLonger) {
+    Polygon polygon;
+    for (int i = 0; i < 100'000; ++i)
+        polygon.emplace_back(i % 3 == 0, i % 3 == 1, 0);
+    EXPECT_LT(secondsFor(polygon), 3.0) << "one by one they take half a minute";
 }
 
 TEST(Triangulate, CollinearCornersAndHolesByABridge) {
