@@ -53,6 +53,12 @@ class Framer {
           axes_(choice.up.value_or(kUp)),
           corners_(cornersOf(surface)),
           outermost_(outermost(corners_)) {
+        glm::dvec3 lower(1e300), upper(-1e300);
+        for (const glm::dvec3& corner : corners_) {
+            lower = glm::min(lower, corner);
+            upper = glm::max(upper, corner);
+        }
+        radius_ = 0.5 * glm::distance(lower, upper);
         if (choice.target) target_ = surface.toLocal(*choice.target);
     }
 
@@ -100,9 +106,9 @@ class Framer {
                 touch, glm::dvec4(x - tangentX * z, -x - tangentX * z, y - tangentY * z, -y - tangentY * z));
             nearest = std::min(nearest, z);
         }
-        constexpr double kLeastDepth = 0.02;
+        constexpr double kLeastDepth = 0.02;  // in units of what is framed
         glm::dvec2 across(0.0);
-        double depth = nearest - kLeastDepth;
+        double depth = nearest - kLeastDepth * radius_;
         if (target_) {
             depth = std::min(
                 {depth, -std::max(touch.x, touch.y) / tangentX, -std::max(touch.z, touch.w) / tangentY});
@@ -210,6 +216,7 @@ class Framer {
     ViewAxes axes_;
     std::optional<glm::vec3> target_;  // local, if it is given
     std::vector<glm::dvec3> corners_, outermost_;
+    double radius_ = 1.0;  // of what is framed
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "host/view/simplify.h"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_set>
 
 #include "host/base/parallel.h"
@@ -14,11 +15,33 @@ constexpr std::size_t kMostClustered = 150'000;
 constexpr std::size_t kMostEmitters = 50'000;  // that are kept as they are
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
+/// The bounds of some triangles, in coordinates of the surface.
+struct Cube {
+    glm::vec3 centre{0.0f};
+    float halfSide = 1.0f;
+};
+
+Cube cubeAround(const Surface& surface, std::size_t firstTriangle, std::size_t endTriangle) {
+    const Geometry& geometry = surface.scene().geometry;
+    glm::vec3 lower(1e30f), upper(-1e30f);
+    for (std::size_t i = firstTriangle; i < endTriangle; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 corner =
+                surface.toLocal(glm::dvec3(geometry.positions[geometry.triangles[i][k]]));
+            lower = glm::min(lower, corner);
+            upper = glm::max(upper, corner);
+        }
+    }
+    const glm::vec3 side = upper - lower;
+    const float longest = std::max({side.x, side.y, side.z});
+    return longest > 0.0f ? Cube{0.5f * (lower + upper), 0.5f * longest} : Cube{};
+}
+
 /// Vertices by the cell of a grid that they are in.
 class Clusters {
   public:
-    Clusters(const Surface& surface, std::uint32_t cellsAcross)
-        : across_(cellsAcross), cellOf_(surface.scene().geometry.positions.size()) {
+    Clusters(const Surface& surface, const Cube& cube, std::uint32_t cellsAcross)
+        : cube_(cube), across_(cellsAcross), cellOf_(surface.scene().geometry.positions.size()) {
         const std::vector<glm::vec3>& positions = surface.scene().geometry.positions;
         parallelFor(positions.size(), 1u << 14, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
@@ -50,8 +73,8 @@ class Clusters {
   private:
     std::uint32_t cellAt(const glm::vec3& local) const {
         const auto across = static_cast<float>(across_);
-        const glm::vec3 cell = glm::floor((local * 0.5f + 0.5f) * across);
-        // Vertices that no triangle uses may be anywhere.
+        const glm::vec3 cell = glm::floor(((local - cube_.centre) / cube_.halfSide * 0.5f + 0.5f) * across);
+        // Vertices of no triangle, or of those that another grid is for, may be anywhere.
         if (!glm::all(glm::greaterThanEqual(cell, glm::vec3(-1.0f))) ||
             !glm::all(glm::lessThanEqual(cell, glm::vec3(across)))) {
             return kNoCell;
@@ -60,6 +83,7 @@ class Clusters {
         return (c.x * across_ + c.y) * across_ + c.z;
     }
 
+    Cube cube_;
     std::uint32_t across_;
     std::vector<std::uint32_t> cellOf_;  // of positions
     std::vector<glm::vec3> centres_;
@@ -85,6 +109,7 @@ class Simplifier {
         : surface_(surface), framedTriangles_(framedTriangles) {
         const Geometry& geometry = surface.scene().geometry;
         if (geometry.triangles.size() > kMostExact) {
+            framed_ = cubeAround(surface, 0, framedTriangles);
             const auto emitters =
                 std::count_if(geometry.materials.begin(), geometry.materials.end(),
                               [&](std::uint32_t m) { return surface.scene().materials[m].emission.any(); });
@@ -101,26 +126,41 @@ class Simplifier {
         return triangles;
     }
 
+    /// What is framed and what is not have grids of their own: lamps far away must not make the cells larger
+    /// than the model.
     std::vector<Surface::Triangle> clustered(std::uint32_t cellsAcross) const {
+        std::vector<Surface::Triangle> triangles;
+        addClustered(triangles, framed_, cellsAcross, 0, framedTriangles_);
+        // Triangles that are all smaller than a cell, far apart, leave nothing: a few of them stand for all.
+        if (triangles.empty()) {
+            for (std::size_t i = 0; i < framedTriangles_; i += framedTriangles_ / kMostExact + 1)
+                addExact(triangles, i);
+        }
+        const std::size_t count = surface_.scene().geometry.triangles.size();
+        if (framedTriangles_ < count) addClustered(triangles, Cube{}, cellsAcross, framedTriangles_, count);
+        return triangles;
+    }
+
+  private:
+    void addClustered(std::vector<Surface::Triangle>& triangles, const Cube& cube, std::uint32_t cellsAcross,
+                      std::size_t first, std::size_t end) const {
         const Scene& scene = surface_.scene();
         const Geometry& geometry = scene.geometry;
-        const Clusters clusters(surface_, cellsAcross);
-        std::vector<Surface::Triangle> triangles;
+        std::optional<Clusters> clusters;
         std::unordered_set<glm::uvec3, HashTriple> seen;
-        for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+        for (std::size_t i = first; i < end; ++i) {
             const glm::uvec3 t = geometry.triangles[i];
             if (keepEmitters_ && scene.materials[geometry.materials[i]].emission.any()) {
                 addExact(triangles, i);
                 continue;
             }
-            const glm::uvec3 c(clusters.of(t.x), clusters.of(t.y), clusters.of(t.z));
+            if (!clusters) clusters.emplace(surface_, cube, cellsAcross);
+            const glm::uvec3 c(clusters->of(t.x), clusters->of(t.y), clusters->of(t.z));
             if (c.x == c.y || c.y == c.z || c.z == c.x || !seen.insert(inOrder(c)).second) continue;
-            add(triangles, i, clusters.centre(c.x), clusters.centre(c.y), clusters.centre(c.z));
+            add(triangles, i, clusters->centre(c.x), clusters->centre(c.y), clusters->centre(c.z));
         }
-        return triangles;
     }
 
-  private:
     void addExact(std::vector<Surface::Triangle>& triangles, std::size_t i) const {
         const Geometry& geometry = surface_.scene().geometry;
         const auto corner = [&](int k) {
@@ -136,6 +176,7 @@ class Simplifier {
 
     const Surface& surface_;
     std::size_t framedTriangles_;
+    Cube framed_;
     bool keepEmitters_ = true;
 };
 
@@ -148,15 +189,6 @@ std::vector<Surface::Triangle> simplifiedTriangles(const Surface& surface, std::
     for (const std::uint32_t cellsAcross : {128u, 64u, 32u}) {
         triangles = simplifier.clustered(cellsAcross);
         if (triangles.size() <= kMostClustered) break;
-    }
-    // Triangles that are all smaller than a cell, far apart, leave nothing: a few of them stand for all.
-    if (triangles.empty()) {
-        triangles = simplifier.all();
-        const std::size_t stride = triangles.size() / kMostExact + 1;
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < triangles.size(); i += stride)
-            triangles[kept++] = triangles[i];
-        triangles.resize(kept);
     }
     return triangles;
 }
