@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -30,21 +32,72 @@ void endLinesByNewline(std::string& bytes) {
     }
 }
 
-bool isInComment(std::string_view bytes, std::size_t at) {
-    const std::size_t before = bytes.substr(0, at).rfind('\n');
-    const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
-    return trimmed(bytes.substr(begin, at - begin)).starts_with('#');
+/// What a line of the file, or several that are joined, begins with. Asked for offsets in ascending order.
+class LineStarts {
+  public:
+    explicit LineStarts(const std::string& bytes) : bytes_(bytes) {}
+
+    /// Finds the line that an offset is in. Line ends that were blanked since do not count.
+    void moveTo(std::size_t offset) {
+        const std::size_t end = std::string_view(bytes_).substr(seen_, offset - seen_).rfind('\n');
+        const bool isNew = end != std::string_view::npos;
+        if (isNew) begin_ = seen_ + end + 1;
+        if (isNew || seen_ == 0) read();
+        seen_ = offset;
+    }
+
+    bool inComment() const { return comment_; }
+    /// The line holds names, in which a backslash or an unusual blank is a character like any other.
+    bool holdsNames() const { return names_; }
+
+  private:
+    void read() {
+        static constexpr std::array<std::string_view, 12> kNames{"g",      "o",      "usemtl", "newmtl",
+                                                                 "mtllib", "usemap", "maplib", "bump",
+                                                                 "disp",   "decal",  "refl",   "norm"};
+        const std::string_view rest = std::string_view(bytes_).substr(begin_);
+        const std::size_t first = std::min(rest.find_first_not_of(" \t"), rest.size());
+        std::size_t end = first;
+        while (end < rest.size() && (std::isalnum(static_cast<unsigned char>(rest[end])) || rest[end] == '_'))
+            ++end;
+        const std::string_view word = rest.substr(first, end - first);
+        comment_ = first < rest.size() && rest[first] == '#';
+        names_ = word.starts_with("map_") || std::find(kNames.begin(), kNames.end(), word) != kNames.end();
+    }
+
+    const std::string& bytes_;
+    std::size_t begin_ = 0, seen_ = 0;
+    bool comment_ = false, names_ = false;
+};
+
+/// Form feeds, vertical tabs and, but in names, no-break spaces are blanks like others.
+void blankUnusualSpaces(std::string& bytes) {
+    std::replace_if(
+        bytes.begin(), bytes.end(), [](char c) { return c == '\f' || c == '\v'; }, ' ');
+    constexpr std::string_view kNoBreakSpace = "\xC2\xA0";
+    LineStarts lines(bytes);
+    for (std::size_t at = bytes.find(kNoBreakSpace); at != std::string::npos;
+         at = bytes.find(kNoBreakSpace, at + 1)) {
+        lines.moveTo(at);
+        if (!lines.inComment() && !lines.holdsNames()) bytes.replace(at, 2, 2, ' ');
+    }
 }
 
+/// A backslash continues a line if only blanks stand between it and the line's end. Where it ends a name, as
+/// in "g back\", it belongs to that.
 std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
     std::vector<std::size_t> joins;
+    LineStarts lines(bytes);
     for (std::size_t at = bytes.find('\\'); at != std::string::npos; at = bytes.find('\\', at + 1)) {
-        std::size_t lineEnd = at + 1;
-        if (lineEnd < bytes.size() && bytes[lineEnd] == '\r') ++lineEnd;
-        if (lineEnd >= bytes.size() || bytes[lineEnd] != '\n' || isInComment(bytes, at)) continue;
+        const std::size_t lineEnd = std::min(bytes.find_first_not_of(" \t\r", at + 1), bytes.size());
+        if (lineEnd < bytes.size() && bytes[lineEnd] != '\n') continue;
+        lines.moveTo(at);
+        const bool endsWord = at > 0 && !isBlank(bytes[at - 1]);
+        if (lines.inComment() || (lines.holdsNames() && endsWord)) continue;
+        const std::size_t end = std::min(lineEnd + 1, bytes.size());
         std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                  bytes.begin() + static_cast<std::ptrdiff_t>(lineEnd) + 1, ' ');
-        joins.push_back(lineEnd);
+                  bytes.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        if (lineEnd < bytes.size()) joins.push_back(lineEnd);
     }
     return joins;
 }
@@ -54,7 +107,8 @@ std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
 SourceText::SourceText(const std::filesystem::path& path, std::string_view expected)
     : path_(path), bytes_(readFile(path)) {
     expectNoForeignFormat(path, bytes_, expected);
-    while (!bytes_.empty() && bytes_.back() == '\0')
+    constexpr char kControlZ = 0x1A;  // ended files of CP/M and DOS
+    while (!bytes_.empty() && (bytes_.back() == '\0' || bytes_.back() == kControlZ))
         bytes_.pop_back();
     if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.replace(0, 3, 3, ' ');
     if (!bytes_.empty()) {
@@ -64,6 +118,7 @@ SourceText::SourceText(const std::filesystem::path& path, std::string_view expec
         }
     }
     endLinesByNewline(bytes_);
+    blankUnusualSpaces(bytes_);
     joins_ = joinContinuedLines(bytes_);
     if (bytes_.empty() || bytes_.back() != '\n') bytes_.push_back('\n');
 }

@@ -17,9 +17,9 @@ struct TextProblem {
 };
 
 /// A line-based text file (OBJ, MTL) made regular for parsers: every line ends in '\n' (or "\r\n"), also the
-/// last; a byte order mark is blanked; a line continued by '\' is joined, unless it is a comment; zero bytes
-/// at the end are left out. Offsets stay those of the file, so that any of them gives the line number as an
-/// editor shows it.
+/// last; a byte order mark and unusual blanks are blanks; a line continued by '\' is joined, unless it is a
+/// comment; zero bytes and Control-Z at the end are left out. Offsets stay those of the file, so that any of
+/// them gives the line number as an editor shows it.
 class SourceText {
   public:
     /// Throws InputError if the file cannot be read or is not text, ForeignFile if it is evidently not

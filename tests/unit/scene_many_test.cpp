@@ -55,6 +55,28 @@ TEST_F(ManyTest, ObjectsOfOneMeshWarnOnce) {
     EXPECT_THAT(scene.warnings[0], HasSubstr("t.obj: 20001 of 40002 triangles left out: zero area"));
 }
 
+TEST_F(ManyTest, LinesThatAreContinued) {
+    std::string face = "f";
+    for (int i = 0; i < 5 * kMany; ++i)
+        face += fmt::format(" {} \\\n", 1 + i % 3);
+    write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + face + "\n");
+    EXPECT_GT(loadSoon("mesh.obj").geometry.triangles.size(), 0u);
+    write("mesh.obj", std::string(kTriangleObj) + "#" + repeated(" {} \\") + "\n");
+    loadSoon("mesh.obj");
+}
+
+TEST_F(ManyTest, LightsAreNoReasonToLoseTheModel) {
+    std::string lights = repeated(
+        "{{\"type\": \"rectangle\", \"origin\": [{}, 0, 1], \"edge1\": [1, 0, 0], \"edge2\": [0, 1, 0], "
+        "\"emission\": {{\"invisible\": 1}}}},");
+    lights.pop_back();
+    write("one.obj", kTriangleObj);
+    write("scene.json", R"({"duolux": 1, "objects": [{"mesh": "one.obj"}], "lights": [)" + lights + "]}");
+    const Scene scene = loadSoon("scene.json");
+    EXPECT_LT(glm::distance(scene.camera.target, glm::vec3(0.5f, 0.5f, 0.0f)), 1.0f);
+    EXPECT_LT(glm::distance(scene.camera.position, scene.camera.target), 10.0f);
+}
+
 TEST_F(ManyTest, Lights) {
     std::string lights = repeated(
         "{{\"type\": \"rectangle\", \"origin\": [{}, 0, 0], \"edge1\": [1, 0, 0], \"edge2\": [0, 1, 0], "
