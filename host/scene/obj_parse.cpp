@@ -67,24 +67,18 @@ class Positions {
     Positions(const SourceText& text, ObjFile& file, std::vector<glm::dvec3> values)
         : text_(text), file_(file), values_(std::move(values)) {}
 
-    /// Vertices that are not finite are an error if a face uses one, and counted if not.
+    /// Vertices that cannot be used are an error if a face uses one, or there is no face, and counted if not.
     void settleBadVertices() {
-        std::vector<std::pair<std::size_t, std::size_t>> bad;  // (vertex, offset in the text)
+        const bool anyFace = std::any_of(file_.parts.begin(), file_.parts.end(),
+                                         [](const ObjPart& part) { return !part.faceEnds.empty(); });
+        std::vector<bool> used;
         for (const ObjPart& part : file_.parts) {
-            for (const ObjPart::BadVertex& vertex : part.badVertices)
-                bad.emplace_back(vertex.index, part.offset + vertex.offset);
-        }
-        if (bad.empty()) return;
-        const std::vector<bool> used = usedVertices();
-        for (const auto& [vertex, offset] : bad) {
-            if (used[vertex]) {
-                text_.fail({offset,
-                            fmt::format("{} is not a finite number",
-                                        inQuotes(firstWord(text_.view().substr(offset)))),
-                            "expected \"v x y z\""});
+            for (const ObjPart::BadVertex& vertex : part.badVertices) {
+                if (used.empty()) used = usedVertices();
+                if (used[vertex.index] || !anyFace) fail(part, vertex);
+                file_.oddities.add(ObjOddity::kUnusedVertex, part.offset + vertex.offset);
+                values_[vertex.index] = glm::dvec3(0.0);
             }
-            file_.oddities.add(ObjOddity::kUnusedVertex, offset);
-            values_[vertex] = glm::dvec3(0.0);
         }
     }
 
@@ -110,6 +104,15 @@ class Positions {
     }
 
   private:
+    [[noreturn]] void fail(const ObjPart& part, const ObjPart::BadVertex& vertex) const {
+        const std::size_t offset = part.offset + vertex.offset;
+        const std::string_view word = firstWord(text_.view().substr(offset));
+        text_.fail({offset,
+                    vertex.tooFew ? fmt::format("{} numbers", *vertex.tooFew)
+                                  : fmt::format("{} is not a finite number", inQuotes(word)),
+                    "expected \"v x y z\""});
+    }
+
     std::vector<bool> usedVertices() const {
         std::vector<bool> used(values_.size(), false);
         for (const ObjPart& part : file_.parts) {
@@ -195,6 +198,18 @@ class Positions {
     std::vector<glm::dvec3> values_;
 };
 
+/// Faces that cannot be used are left out, but not all of them.
+void failWithoutFaces(const SourceText& text, const ObjFile& file) {
+    const auto hasFaces = [](const ObjPart& part) { return !part.faceEnds.empty(); };
+    if (std::any_of(file.parts.begin(), file.parts.end(), hasFaces)) return;
+    for (const ObjPart& part : file.parts) {
+        if (!part.badFace) continue;
+        TextProblem problem = *part.badFace;
+        problem.offset += part.offset;
+        text.fail(problem);
+    }
+}
+
 }  // namespace
 
 ObjFile parseObj(const SourceText& text, Reading reading) {
@@ -229,6 +244,7 @@ ObjFile parseObj(const SourceText& text, Reading reading) {
         }
         file.oddities.append(file.parts[i].notes.oddities, file.parts[i].offset);
     }
+    failWithoutFaces(text, file);
     Positions rounding(text, file, std::move(positions));
     rounding.settleBadVertices();
     rounding.round(reading);

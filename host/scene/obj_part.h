@@ -23,8 +23,10 @@ struct ObjPart {
     };
     /// A vertex that cannot be used.
     struct BadVertex {
-        std::size_t index;   ///< into the vertices of the file
-        std::size_t offset;  ///< of the number that is not finite
+        std::size_t index;  ///< into the vertices of the file
+        std::size_t
+            offset;  ///< of the word that is no finite number, or of the statement if there are too few
+        std::optional<int> tooFew = std::nullopt;  ///< how many, then
     };
 
     std::size_t offset = 0;                     ///< of its first byte in the file
@@ -34,6 +36,7 @@ struct ObjPart {
                                                 ///< empty if no corner has one
     std::vector<MaterialChange> materials;
     std::vector<BadVertex> badVertices;
+    std::optional<TextProblem> badFace;  ///< the first that is left out because of its vertices
     ObjNotes notes;
 };
 
@@ -45,7 +48,7 @@ struct ObjPartTarget {
     ObjCounts total;                  ///< of the whole file
 };
 
-/// Reads whole lines of an OBJ file. Vertices that are not finite are noted: they matter only if a face uses
+/// Reads whole lines of an OBJ file. Vertices that cannot be used are noted: they matter only if a face uses
 /// them. Returns the first problem; its offset, as all in `part`, is relative to the text.
 std::optional<TextProblem> readObjPart(std::string_view text, const ObjPartTarget& target, Reading reading,
                                        ObjPart& part);

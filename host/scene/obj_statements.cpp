@@ -19,8 +19,12 @@ struct Description {
 
 constexpr std::array kDescriptions{
     Description{ObjOddity::kShortFace, "a face of fewer than 3 corners", "left out"},
-    Description{ObjOddity::kUnusedVertex, "a vertex that is not finite or too large", "no face uses it"},
+    Description{ObjOddity::kBadFace, "a face with a vertex index that is 0, out of range or no number",
+                "left out"},
+    Description{ObjOddity::kUnusedVertex, "a vertex that is not three finite numbers, or too large",
+                "no face uses it"},
     Description{ObjOddity::kExtraNumbers, "more numbers than the statement has", "the last ones are ignored"},
+    Description{ObjOddity::kExtraWords, "extra values that are no finite numbers", "ignored"},
     Description{ObjOddity::kNormal, "a normal that is not three finite numbers",
                 "triangles that name it are flat"},
     Description{ObjOddity::kNormalIndex, "a normal index that is 0 or out of range",
@@ -30,11 +34,14 @@ constexpr std::array kDescriptions{
     Description{ObjOddity::kTextureIndex, "a texture coordinate index that is 0 or out of range",
                 "it is not used"},
     Description{ObjOddity::kTrailingSlash, "a corner that ends in \"/\"", "read without it"},
+    Description{ObjOddity::kCornerRest, "a corner with more than v/vt/vn, as in 1.0 or 1/1/1/1",
+                "the rest is ignored"},
     Description{ObjOddity::kSmoothing, "a smoothing group that is neither a number nor \"off\"",
                 "\"on\" is read as group 1, anything else as off"},
     Description{ObjOddity::kMaterialName, "usemtl without a name", "its faces are grey 0.8"},
     Description{ObjOddity::kLibraryName, "mtllib without a name", "ignored"},
     Description{ObjOddity::kVertexColour, "a vertex with a colour", "vertex colours are not used"},
+    Description{ObjOddity::kVertexWeight, "a vertex with a weight w other than 1", "w is not used"},
 };
 
 }  // namespace

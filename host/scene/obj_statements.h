@@ -39,17 +39,21 @@ ObjKeyword objKeywordOf(std::string_view word);
 enum class ObjOddity {
     kUnknownStatement,
     kShortFace,
+    kBadFace,
     kUnusedVertex,
     kExtraNumbers,
+    kExtraWords,
     kNormal,
     kNormalIndex,
     kTexture,
     kTextureIndex,
     kTrailingSlash,
+    kCornerRest,
     kSmoothing,
     kMaterialName,
     kLibraryName,
     kVertexColour,
+    kVertexWeight,
     kCount
 };
 

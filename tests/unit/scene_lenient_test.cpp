@@ -8,11 +8,10 @@
 namespace duolux::test {
 namespace {
 
-using testing::Each;
+using testing::Contains;
 using testing::ElementsAre;
-using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
+using testing::IsEmpty;
 using testing::StartsWith;
 
 class LenientTest : public SceneFiles {
@@ -74,8 +73,54 @@ TEST_F(LenientTest, CornersMayEndInASlash) {
         EXPECT_THAT(scene.warnings[0],
                     HasSubstr("a corner that ends in \"/\" (and 2 more): read without it"));
     }
-    EXPECT_THAT(errorOfObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/// 2 3\n"),
-                HasSubstr("is not a corner of a face"));
+}
+
+TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
+    const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+    for (const char* face : {"1/1// 2/1// 3/1//", "1/1/1/1 2/1/1/1 3/1/1/1", "1.0 2.0 3.0", "1/// 2/// 3///",
+                             "1, 2, 3,", "1,2,3,", "1.0/1.0/1.0 2.0/1.0/1.0 3.0/1.0/1.0"}) {
+        const Scene scene = loadObj(head + "f " + face + "\n");
+        EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
+        EXPECT_THAT(
+            withoutLight(scene.warnings),
+            ElementsAre("mesh.obj: line 6: a corner with more than v/vt/vn, as in 1.0 or 1/1/1/1 (and 2 "
+                        "more): the rest is ignored"))
+            << face;
+    }
+    for (const char* face : {"+1 +2 +3", "1 2 3#4", "1 2 3 \x1A", "1\f2\v3",
+                             "1\xC2\xA0"
+                             "2\xC2\xA0"
+                             "3",
+                             "1 \\ \n2 \\\t\r\n3", "1 2 3 \\", "1 2 3\\"}) {
+        const Scene scene = loadObj(head + "f " + face);
+        EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
+        EXPECT_THAT(withoutLight(scene.warnings), IsEmpty()) << face;
+    }
+}
+
+TEST_F(LenientTest, FacesWithoutTheirVerticesAreLeftOut) {
+    const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n";
+    const Scene scene =
+        loadObj(head + "usemtl a\nf 1//1 2//1 9//1\nf 1 2 0\nusemtl b\nf 1//1 2//1 3//1\nf a b c\n");
+    EXPECT_EQ(scene.geometry.triangles.size(), 1u + 2u);
+    EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "b");
+    EXPECT_EQ(scene.geometry.normalIndices[0], glm::uvec3(0, 0, 0));
+    EXPECT_THAT(
+        withoutLight(scene.warnings),
+        Contains("mesh.obj: line 6: a face with a vertex index that is 0, out of range or no number (and 2 "
+                 "more): left out"));
+    EXPECT_EQ(errorOfObj(head + "f 1 2 9\nf 1 2 0\n"),
+              "mesh.obj: line 5: vertex index 9 is out of range; there are 3 vertices in the file");
+}
+
+TEST_F(LenientTest, NamesKeepTheirBackslashes) {
+    for (const char* name : {"g back\\", "usemtl C:\\textures\\", "o a b\\"}) {
+        const Scene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(name) + "\nf 1 2 3\n");
+        EXPECT_EQ(scene.geometry.triangles.size(), 1u + 2u) << name;
+    }
+    write("a.mtl", "newmtl a\nKd 1 0 0\n");
+    EXPECT_THAT(warningsOf("mtllib a.mtl \\\n b.mtl\nusemtl a\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("b.mtl: no such file")));
 }
 
 TEST_F(LenientTest, FacesOfFewerThanThreeCornersAreLeftOut) {
@@ -107,12 +152,30 @@ TEST_F(LenientTest, SmoothingByWords) {
 TEST_F(LenientTest, VerticesThatNoFaceUsesMayBeAnything) {
     const Scene scene =
         loadObj("v 0 0 0\nv 1 0 0\nv nan 0 0\nv 0 1 0\nv 1e300 0 0\nv -1.#IND 0 0\nf 1 2 4\n");
-    EXPECT_THAT(
-        withoutLight(scene.warnings),
-        ElementsAre(
-            "mesh.obj: line 3: a vertex that is not finite or too large (and 2 more): no face uses it"));
+    EXPECT_THAT(withoutLight(scene.warnings),
+                ElementsAre("mesh.obj: line 3: a vertex that is not three finite numbers, or too large (and "
+                            "2 more): no face uses it"));
     for (const glm::vec3& position : scene.geometry.positions)
         EXPECT_LE(glm::length(position), 10.0f);
+}
+
+TEST_F(LenientTest, NumbersThatAreNotUsedMayBeAnything) {
+    const std::string extra = "mesh.obj: line 5: extra values that are no finite numbers: ignored";
+    EXPECT_THAT(warningsOf("v 0 0 0 nan nan nan\nf 5 2 3\n"), ElementsAre(extra));
+    EXPECT_THAT(warningsOf("v 0 0 0 foo\nf 5 2 3\n"), ElementsAre(extra));
+    EXPECT_THAT(
+        warningsOf("v foo 0 0\nv 5 5\nv\nf 1 2 3\n"),
+        ElementsAre("mesh.obj: line 5: a vertex that is not three finite numbers, or too large (and 2 "
+                    "more): no face uses it"));
+    EXPECT_EQ(errorOfObj("v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+              "mesh.obj: line 1: 2 numbers; expected \"v x y z\"");
+    EXPECT_EQ(smoothTriangles("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1 nan\nf 1//1 2//1 3//1\n"), 1u);
+}
+
+TEST_F(LenientTest, WeightsOfVerticesAreNotUsed) {
+    EXPECT_THAT(warningsOf("v 0 0 2 2\nv 0 0 2 1\nf 5 2 3\n"),
+                ElementsAre("mesh.obj: line 5: a vertex with a weight w other than 1: w is not used"));
+    EXPECT_THAT(warningsOf("v 0 0 2 0.5 1 1 1\nf 5 2 3\n").size(), 2u) << "and a colour";
 }
 
 TEST_F(LenientTest, VertexColoursAreNamedOnce) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "host/scene/obj_complaints.h"
+#include "host/scene/obj_part.h"
+#include "host/scene/source_text.h"
+
+namespace duolux {
+
+/// Reads the faces of one part of an OBJ file.
+class ObjFaceReader {
+  public:
+    ObjFaceReader(const char* end, const ObjPartTarget& target, ObjComplaints& complaints, ObjPart& part)
+        : end_(end), target_(target), complaints_(complaints), part_(part) {}
+
+    /// A statement `f` with `seen` ahead of it. Faces that name vertices that are not there are left out, and
+    /// the first of them is noted.
+    void read(const char* line, const char* arguments, const ObjCounts& seen);
+
+  private:
+    struct Index {
+        std::string_view text;  ///< empty: there is none
+        std::int64_t value = 0;
+    };
+
+    Index readIndex(const char* at) const;
+    const char* readCorner(const char* corner, const ObjCounts& seen);
+    void addNormal(const char* corner, const Index& normal, const ObjCounts& seen);
+    void leaveOut(const char* line, std::size_t firstCorner);
+    TextProblem notACorner(const char* corner) const;
+
+    const char* end_;
+    const ObjPartTarget& target_;
+    ObjComplaints& complaints_;
+    ObjPart& part_;
+    std::optional<TextProblem> bad_;  ///< of the current face
+};
+
+}  // namespace duolux
