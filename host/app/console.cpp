@@ -14,13 +14,6 @@
 
 namespace duolux {
 
-namespace {
-
-/// Of a line on standard error, in bytes: room for some paths.
-constexpr std::size_t kLongestLine = 1000;
-
-}  // namespace
-
 void openStandardStreams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
@@ -31,7 +24,7 @@ void openStandardStreams() {
 
 void say(std::string_view line) {
     std::fflush(stdout);  // in order, where both go to one place
-    const std::string text = withoutMiddle(printable(line), kLongestLine) + "\n";
+    const std::string text = asMessage(line) + "\n";
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }

@@ -60,4 +60,8 @@ std::string withoutMiddle(std::string text, std::size_t mostBytes) {
     return text.replace(begin, end - begin, kLeftOut);
 }
 
+std::string asMessage(std::string_view text) {
+    return withoutMiddle(printable(text), kLongestMessage);
+}
+
 }  // namespace duolux

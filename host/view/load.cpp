@@ -130,7 +130,7 @@ Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
     noteContent(scene);
     chooseView(scene, read, choices);
     for (std::string& warning : scene.warnings)
-        warning = printable(warning);
+        warning = asMessage(warning);
     scene.hash = hashScene(scene);
     return scene;
 }
