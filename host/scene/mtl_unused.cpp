@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
+
+#include "host/base/printable.h"
+#include "host/scene/nearest_name.h"
 
 namespace duolux {
 
@@ -14,7 +19,7 @@ struct Name {
     std::string_view other;  ///< spelling
 };
 
-// map_Ka is not among them: there is no ambient light.
+// So are all that begin with "map_".
 constexpr Name kTextureNames[] = {
     {"map_Kd", ""},           {"map_Ks", ""},       {"map_Ke", ""},       {"map_Ns", ""},
     {"map_d", "map_Tr"},      {"map_Pr", ""},       {"map_Pm", ""},       {"map_Ps", ""},
@@ -22,21 +27,38 @@ constexpr Name kTextureNames[] = {
     {"decal", "map_decal"},   {"refl", "map_refl"},
 };
 
+constexpr double kOpaque = 0.999;
+
 /// Of physically based extensions; 0 is what they are without.
 constexpr std::string_view kShineNames[] = {"Pm", "Ps", "Pc"};
 
-/// The largest of up to three numbers; nothing if the first word is none (as in "spectral FILE").
-std::optional<double> largestNumber(std::string_view arguments) {
+/// What says nothing of a diffuse surface, or is looked at below.
+constexpr std::string_view kKnown[] = {"Ka",    "Ks", "Ns",  "Ni",    "d",      "Tr",      "Tf",
+                                       "illum", "Pr", "Pcr", "aniso", "anisor", "map_aat", "sharpness"};
+
+/// Statements that matter, as they are spelt.
+constexpr std::string_view kSpellings[] = {"newmtl", "Kd", "Ke"};
+
+/// Smallest and largest of up to three numbers; nothing if the first word is none (as in "spectral FILE").
+struct Range {
+    double smallest, largest;
+};
+std::optional<Range> rangeOf(std::string_view arguments) {
     if (arguments.starts_with("-halo")) arguments = trimmed(arguments.substr(5));
-    std::optional<double> largest;
+    std::optional<Range> range;
     for (int i = 0; i < 3 && !arguments.empty(); ++i) {
         const std::string_view word = firstWord(arguments);
         const auto [past, value] = readNumber(word.data(), word.data() + word.size());
         if (past != word.data() + word.size() || !std::isfinite(value)) break;
-        largest = std::max(largest.value_or(value), value);
+        if (!range) range = Range{value, value};
+        range = Range{std::min(range->smallest, value), std::max(range->largest, value)};
         arguments = trimmed(arguments.substr(word.size()));
     }
-    return largest;
+    return range;
+}
+
+bool isOneOf(std::string_view word, std::span<const std::string_view> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 bool isTransparent(int illumination) {
@@ -46,6 +68,8 @@ bool isTransparent(int illumination) {
 }  // namespace
 
 void MtlUnused::note(Group group, std::string_view keyword, std::size_t offset) {
+    constexpr std::size_t kMost = 64;  // of a material
+    if (statements_.size() >= kMost) return;
     const auto same = [&](const Statement& statement) { return statement.keyword == keyword; };
     if (std::none_of(statements_.begin(), statements_.end(), same))
         statements_.push_back({group, keyword, offset});
@@ -55,11 +79,18 @@ void MtlUnused::add(std::string_view keyword, std::string_view arguments, std::s
     for (const auto& [name, other] : kTextureNames) {
         if (keyword == name || keyword == other) return note(kTextures, name, offset);
     }
-    const std::optional<double> number = largestNumber(arguments);
-    if (!number) return;
-    for (const std::string_view name : kShineNames) {
-        if (keyword == name && *number > 0.0) note(kShine, name, offset);
+    if (isOneOf(keyword, kShineNames)) {
+        const std::optional<Range> range = rangeOf(arguments);
+        if (range && range->largest > 0.0) note(kShine, keyword, offset);
+        return;
     }
+    if (!isOneOf(keyword, kKnown)) {
+        const bool isTexture = lowerCase(keyword.substr(0, 4)) == "map_";
+        return note(isTexture ? kTextures : kUnknown, keyword, offset);
+    }
+    const std::optional<Range> range = rangeOf(arguments);
+    if (!range) return;
+    const std::optional<double> number = range->largest;
     if (keyword == "d") {
         values_.dissolve = number;
         values_.dissolveAt = offset;
@@ -68,6 +99,7 @@ void MtlUnused::add(std::string_view keyword, std::string_view arguments, std::s
         values_.transparencyAt = offset;
     } else if (keyword == "Tf") {
         values_.filter = number;
+        values_.filterIsGrey = range->largest == range->smallest && (*number <= 0.0 || *number >= kOpaque);
         values_.filterAt = offset;
     } else if (keyword == "Ks") {
         values_.specular = number;
@@ -80,14 +112,16 @@ void MtlUnused::add(std::string_view keyword, std::string_view arguments, std::s
 
 void MtlUnused::finishMaterial(bool counts) {
     const Values& v = values_;
-    constexpr double kOpaque = 0.999;
     if (v.dissolve && *v.dissolve < kOpaque) note(kTransparency, "d", v.dissolveAt);
     // Some programs write Tr 1 for opaque, along with d 1, which then tells.
     if (v.transparency && *v.transparency > 1.0 - kOpaque && v.dissolve.value_or(0.0) < kOpaque) {
         note(kTransparency, "Tr", v.transparencyAt);
     }
+    // Tf 1 1 1 comes from programs that write it for everything.
+    if (v.filter && (!v.filterIsGrey || (isTransparent(v.illumination) && *v.filter > 0.0))) {
+        note(kTransparency, "Tf", v.filterAt);
+    }
     if (isTransparent(v.illumination)) {
-        if (v.filter.value_or(0.0) > 0.0) note(kTransparency, "Tf", v.filterAt);
         note(kTransparency, "illum", v.illuminationAt);
     }
     // 0.5 is what Blender writes for anything; models 0 and 1 have no highlights, those above 2 reflect.
@@ -106,6 +140,9 @@ void MtlUnused::finishMaterial(bool counts) {
             inGroup[group] = true;
             auto named = std::find_if(found.keywords.begin(), found.keywords.end(),
                                       [&](const Named& other) { return other.keyword == keyword; });
+            constexpr std::size_t kMost = 12;
+            found.more = found.more || (named == found.keywords.end() && found.keywords.size() >= kMost);
+            if (named == found.keywords.end() && found.keywords.size() >= kMost) continue;
             if (named == found.keywords.end())
                 named = found.keywords.insert(named, {std::string(keyword), 0});
             ++named->materials;
@@ -117,19 +154,27 @@ void MtlUnused::finishMaterial(bool counts) {
 
 void MtlUnused::warn(const SourceText& text, std::vector<std::string>& warnings) const {
     constexpr const char* kWhat[kGroups] = {"textures are not read", "surfaces are opaque",
-                                            "surfaces are diffuse"};
+                                            "surfaces are diffuse", "not known"};
     for (std::size_t group = 0; group < kGroups; ++group) {
         const Found& found = found_[group];
         if (found.materials == 0) continue;
         std::string names;
         for (const auto& [keyword, materials] : found.keywords) {
-            names += (names.empty() ? "" : ", ") + keyword;
+            names += (names.empty() ? "" : ", ") + shortened(keyword);
             if (found.keywords.size() > 1) names += fmt::format(" ({})", materials);
         }
-        warnings.push_back(fmt::format("{}: line {}: {}: {} of {} material{} ha{} no effect", text.file(),
-                                       text.lineOf(found.first), kWhat[group], names, found.materials,
-                                       found.materials == 1 ? "" : "s",
-                                       found.keywords.size() == 1 ? "s" : "ve"));
+        if (found.more) names += " ...";
+        std::string warning =
+            fmt::format("{}: line {}: {}: {} of {} material{} ha{} no effect", text.file(),
+                        text.lineOf(found.first), kWhat[group], names, found.materials,
+                        found.materials == 1 ? "" : "s", found.keywords.size() == 1 ? "s" : "ve");
+        if (group == kUnknown) {
+            for (const std::string_view spelling : kSpellings) {
+                if (lowerCase(found.keywords.front().keyword) == lowerCase(spelling))
+                    warning += fmt::format("; did you mean {}?", spelling);
+            }
+        }
+        warnings.push_back(std::move(warning));
     }
 }
 

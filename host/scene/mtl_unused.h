@@ -11,8 +11,8 @@
 
 namespace duolux {
 
-/// The statements of an MTL file that would change the picture and have no effect. Those that every exporter
-/// writes, and whose values say nothing special (d 1, illum 2, Ks 0.5), do not count.
+/// The statements of an MTL file that would change the picture, or are unknown, and have no effect. Those
+/// that every exporter writes, and whose values say nothing special (d 1, illum 2, Ks 0.5), do not count.
 class MtlUnused {
   public:
     /// A statement of the current material.
@@ -21,11 +21,11 @@ class MtlUnused {
     /// The current material is complete; `counts` if it is used.
     void finishMaterial(bool counts);
 
-    /// At most three warnings: of textures, of transparency and of what shines.
+    /// At most four warnings: of textures, of transparency, of what shines, and of unknown statements.
     void warn(const SourceText& text, std::vector<std::string>& warnings) const;
 
   private:
-    enum Group : std::size_t { kTextures, kTransparency, kShine, kGroups };
+    enum Group : std::size_t { kTextures, kTransparency, kShine, kUnknown, kGroups };
 
     struct Named {
         std::string keyword;
@@ -35,6 +35,7 @@ class MtlUnused {
         std::vector<Named> keywords;  ///< in the order of their first statements
         std::size_t materials = 0;
         std::size_t first = 0;  ///< offset of the first statement
+        bool more = false;      ///< than `keywords` names
     };
     struct Statement {
         Group group;
@@ -44,6 +45,7 @@ class MtlUnused {
     /// Values of the current material, where it gives them.
     struct Values {
         std::optional<double> dissolve, transparency, specular, filter;
+        bool filterIsGrey = true;  ///< 0 or 1 in all channels
         int illumination = 2;
         std::size_t dissolveAt = 0, transparencyAt = 0, specularAt = 0, filterAt = 0, illuminationAt = 0;
     };

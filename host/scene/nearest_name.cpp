@@ -18,6 +18,12 @@ char lower(char c) {
 
 }  // namespace
 
+std::string lowerCase(std::string_view text) {
+    std::string result(text);
+    std::transform(result.begin(), result.end(), result.begin(), lower);
+    return result;
+}
+
 std::size_t editDistance(std::string_view a, std::string_view b) {
     // Rows of the dynamic programme: two back, the previous, the current.
     std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);

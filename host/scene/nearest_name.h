@@ -8,6 +8,9 @@
 
 namespace duolux {
 
+/// With small ASCII letters.
+std::string lowerCase(std::string_view text);
+
 /// The smallest number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
 /// (restricted Damerau-Levenshtein distance; ASCII case does not count).
 std::size_t editDistance(std::string_view a, std::string_view b);

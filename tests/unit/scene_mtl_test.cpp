@@ -130,6 +130,24 @@ TEST_F(MtlTest, NamesWhatWouldChangeThePicture) {
             HasSubstr("m.mtl: line 12: surfaces are diffuse: Ks (1), Pm (1) of 2 materials have no effect")));
 }
 
+TEST_F(MtlTest, NamesStatementsThatItDoesNotKnow) {
+    EXPECT_THAT(
+        load("newmtl a\nkd 1 0 0\nfoo\nnewmtl b\nfoo 1\n").warnings,
+        ElementsAre(HasSubstr("m.mtl: line 2: not known: kd (1), foo (2) of 2 materials have no effect; did "
+                              "you mean Kd?")));
+    EXPECT_THAT(
+        load("newmtl a\nMAP_KD a.png\nmap_opacity b.png\nmap_Ka c.png\n").warnings,
+        ElementsAre(HasSubstr("textures are not read: MAP_KD (1), map_opacity (1), map_Ka (1) of 1")));
+    EXPECT_THAT(load("newmtl a\nTf 0.5 0.5 0.5\nnewmtl b\nTf 1 0 0\n").warnings,
+                ElementsAre(HasSubstr("line 2: surfaces are opaque: Tf of 2 materials has no effect")));
+    std::string many = "newmtl a\n";
+    for (int i = 0; i < 100'000; ++i)
+        many += fmt::format("word{} 1\n", i);
+    const MaterialLibrary library = load(many);
+    ASSERT_EQ(library.warnings.size(), 1u);
+    EXPECT_LT(library.warnings[0].size(), 400u);
+}
+
 TEST_F(MtlTest, WhatExportersAlwaysWriteIsNoNews) {
     // Blender; 3ds Max; one that takes Tr for d.
     EXPECT_THAT(load("newmtl a\nNs 250\nKa 1 1 1\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nKe 0 0 0\nNi 1.45\nd "
