@@ -125,16 +125,27 @@ fs::path readMeshPath(const JsonNode& node) {
     return file;
 }
 
-void readObjects(const JsonNode& node, Reading reading, SceneContents& contents) {
-    std::map<fs::path, std::size_t> meshes;
+/// A file under one name, whatever "." and links its path holds.
+fs::path identity(const fs::path& path) {
+    std::error_code ec;
+    fs::path canonical = fs::canonical(path, ec);
+    return ec ? path : canonical;
+}
+
+void readObjects(const JsonNode& node, SceneContents& contents) {
+    std::map<fs::path, std::size_t> meshes, byPath;
     for (const JsonNode& object : node.elements("expected an array of objects")) {
         object.expectKeys({"mesh", "transform"});
         const fs::path path = readMeshPath(object.require("mesh", "expected the path of an .obj file"));
         const std::optional<JsonNode> transform = object.find("transform");
         std::optional<glm::dmat4> matrix;
         if (transform) matrix = readTransform(*transform);
-        const auto [mesh, isNew] = meshes.try_emplace(path, contents.meshes.size());
-        if (isNew) contents.meshes.push_back(loadObj(path, reading));
+        const auto [mesh, isNewPath] = byPath.try_emplace(path, contents.meshes.size());
+        if (isNewPath) {
+            const auto [file, isNew] = meshes.try_emplace(identity(path), contents.meshes.size());
+            if (isNew) contents.meshes.push_back(loadObj(path, contents.materialFiles));
+            mesh->second = file->second;
+        }
         contents.objects.push_back({transform.value_or(object), mesh->second, matrix});
     }
 }
@@ -161,22 +172,47 @@ void readLight(const JsonNode& node, SceneContents& contents) {
     contents.lights.push_back(std::move(light));
 }
 
-void readMaterials(const JsonNode& node, Scene& scene) {
+/// Names of materials that no face has.
+std::set<std::string> unusedMaterials(const SceneContents& contents) {
+    std::set<std::string> names;
+    for (const Mesh& mesh : contents.meshes)
+        names.insert(mesh.unusedMaterials.begin(), mesh.unusedMaterials.end());
+    for (const MaterialLibrary* library : contents.materialFiles.libraries()) {
+        for (const auto& [name, index] : library->byPlainName)
+            names.insert(name);
+        for (const auto& [name, index] : library->byName)
+            names.insert(name);
+    }
+    return names;
+}
+
+void readMaterials(const JsonNode& node, const std::set<std::string>& unused, Scene& scene) {
     std::unordered_map<std::string, std::vector<std::size_t>> byName;
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         byName[scene.materials[i].name].push_back(i);
+    std::string firstUnused;
+    std::size_t unusedCount = 0;
     for (const auto& [name, overrides] : node.members()) {
         const auto found = byName.find(name);
-        if (found == byName.end()) {
-            std::set<std::string> names;
+        if (found != byName.end()) {
+            for (const std::size_t material : found->second)
+                readMaterial(overrides, scene.materials[material]);
+        } else if (unused.contains(name)) {
+            Material material;
+            readMaterial(overrides, material);
+            if (unusedCount++ == 0) firstUnused = overrides.path();
+        } else {
+            std::set<std::string> names = unused;
             for (const Material& material : scene.materials)
                 names.insert(material.name);
             const std::vector<std::string> known(names.begin(), names.end());
             overrides.fail("no mesh has a material of this name", suggestName(name, known));
         }
-        for (const std::size_t material : found->second)
-            readMaterial(overrides, scene.materials[material]);
     }
+    if (unusedCount == 0) return;
+    scene.warnings.push_back(
+        fmt::format("{}: {}{}: no face has this material", scene.source.string(), firstUnused,
+                    unusedCount == 1 ? "" : fmt::format(" (and {} more)", unusedCount - 1)));
 }
 
 }  // namespace
@@ -199,16 +235,18 @@ SceneFile readJsonScene(const fs::path& path, Reading reading) {
     if (const auto display = root.find("display")) scene.display = readDisplay(*display);
     const auto reflectance = root.find("reflectance");
     scene.reflectance = reflectance ? readReflectance(*reflectance) : *presetReflectance("global");
-    SceneContents contents;
-    if (const auto objects = root.find("objects")) readObjects(*objects, reading, contents);
+    SceneContents contents(reading);
+    if (const auto objects = root.find("objects")) readObjects(*objects, contents);
     const auto lights = root.find("lights");
     if (lights) {
         for (const JsonNode& light : lights->elements("expected an array of lights"))
             readLight(light, contents);
     }
     setOrigin(scene, originOf(contents));
+    const auto materials = root.find("materials");
+    const std::set<std::string> unused = materials ? unusedMaterials(contents) : std::set<std::string>();
     appendObjects(contents, scene);
-    if (const auto materials = root.find("materials")) readMaterials(*materials, scene);
+    if (materials) readMaterials(*materials, unused, scene);
     const std::size_t meshTriangles = scene.geometry.triangles.size();
     appendLights(contents, scene);
     if (scene.geometry.triangles.empty()) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/material_files.h"
 #include "host/scene/scene.h"
 #include "host/scene/tally.h"
 
@@ -16,7 +17,8 @@ struct Mesh {
     std::vector<std::filesystem::path> files;  ///< that were read: the mesh and its MTL files
     Geometry geometry;                         ///< its positions are those of the file less `origin`
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
-    std::vector<Material> materials;  ///< of its MTL files, used or not, and those that faces name besides
+    std::vector<Material> materials;           ///< that faces have
+    std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face has
     std::vector<std::string> warnings;
     std::uint64_t bytes = 0;  ///< of the text
 };
@@ -34,6 +36,7 @@ inline constexpr double kLargestRadiance = 1e12;
 /// Reads Wavefront OBJ: polygons become triangles, normals come from `vn` or, where a face has none, from its
 /// smoothing group. Materials come from the MTL files it names; a missing one is a warning. Throws
 /// InputError.
+Mesh loadObj(const std::filesystem::path& path, MaterialFiles& files);
 Mesh loadObj(const std::filesystem::path& path, Reading reading = Reading::kLenient);
 
 }  // namespace duolux

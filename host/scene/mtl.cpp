@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <optional>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -91,6 +90,7 @@ class MtlReader {
         anyMaterial_ = true;
         inMaterial_ = !name.empty();
         material_ = Material();
+        tooLarge_.reset();
         material_.name = name;
         definedAt_ = offsetOf(line);
         if (name.empty()) tolerate(Oddity::kUnnamed, line, "names no material", "expected \"newmtl NAME\"");
@@ -99,14 +99,19 @@ class MtlReader {
     void finishMaterial() {
         if (!inMaterial_) return;
         inMaterial_ = false;
-        const bool isNew = names_.insert(material_.name).second;
+        const auto index = static_cast<std::uint32_t>(library_.materials.size());
+        const bool isNew = library_.byName.try_emplace(material_.name, index).second;
         unused_.finishMaterial(isNew);
         if (isNew) {
+            library_.byPlainName.try_emplace(std::string(plainName(material_.name)), index);
+            if (tooLarge_) library_.unusable.emplace(index, text_.error(*tooLarge_));
             library_.materials.push_back(std::move(material_));
-        } else {
-            if (oddities_[Oddity::kDefinedAgain].count == 0) definedAgain_ = material_.name;
-            oddities_.add(Oddity::kDefinedAgain, definedAt_);
+            return;
         }
+        if (oddities_[Oddity::kDefinedAgain].count == 0) definedAgain_ = material_.name;
+        tolerate(Oddity::kDefinedAgain, text_.view().substr(definedAt_),
+                 fmt::format("material {} is defined again", inQuotes(material_.name)),
+                 "expected names that differ");
     }
 
     void readColour(std::string_view line, std::string_view keyword, std::string_view arguments) {
@@ -141,9 +146,11 @@ class MtlReader {
 
     void setColour(std::string_view line, bool diffuse, const glm::dvec3& colour) {
         if (!glm::all(glm::lessThanEqual(colour, glm::dvec3(kLargestRadiance)))) {
-            text_.fail({offsetOf(line), diffuse ? "Kd: too large" : "Ke: too large",
-                        diffuse ? std::string("expected numbers from 0 to 1")
-                                : fmt::format("expected numbers from 0 to {:g}", kLargestRadiance)});
+            const TextProblem problem{offsetOf(line), diffuse ? "Kd: too large" : "Ke: too large",
+                                      fmt::format("expected numbers from 0 to {:g}", kLargestRadiance)};
+            if (reading_ == Reading::kStrict) text_.fail(problem);
+            if (!tooLarge_) tooLarge_ = problem;
+            return;
         }
         if (!diffuse) {
             material_.emission = {glm::vec3(colour), glm::vec3(colour), Sides::kFront};
@@ -187,12 +194,12 @@ class MtlReader {
     const SourceText text_;
     const Reading reading_;
     MaterialLibrary library_;
-    std::unordered_set<std::string> names_;
     Tally<Oddity> oddities_;
     std::string definedAgain_, aboveOne_;  ///< the first of their kind
     MtlUnused unused_;
-    Material material_;          ///< the current one
-    std::size_t definedAt_ = 0;  ///< its offset
+    Material material_;                    ///< the current one
+    std::size_t definedAt_ = 0;            ///< its offset
+    std::optional<TextProblem> tooLarge_;  ///< of its colours
     bool inMaterial_ = false, anyMaterial_ = false;
 };
 

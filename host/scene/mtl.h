@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "host/base/error.h"
 #include "host/scene/scene.h"
 #include "host/scene/tally.h"
 
@@ -11,6 +15,9 @@ namespace duolux {
 
 struct MaterialLibrary {
     std::vector<Material> materials;  ///< names differ
+    std::unordered_map<std::string, std::uint32_t> byName;
+    std::unordered_map<std::string, std::uint32_t> byPlainName;  ///< see plainName; the first of each
+    std::map<std::uint32_t, InputError> unusable;                ///< materials that no face may have, and why
     std::vector<std::string> warnings;
 };
 

@@ -156,6 +156,11 @@ Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
 }  // namespace
 
 Mesh loadObj(const fs::path& path, Reading reading) {
+    MaterialFiles files(reading);
+    return loadObj(path, files);
+}
+
+Mesh loadObj(const fs::path& path, MaterialFiles& files) {
     Mesh mesh;
     mesh.source = path;
     mesh.files.push_back(path);
@@ -163,7 +168,7 @@ Mesh loadObj(const fs::path& path, Reading reading) {
     {
         const SourceText text(path, "a Wavefront OBJ file");
         mesh.bytes = text.size();
-        file = parseObj(text, reading);
+        file = parseObj(text, files.reading());
         warnOfOddities(text, file.oddities, mesh.warnings);
     }
     if (file.loss.vertices > 0) {
@@ -172,15 +177,15 @@ Mesh loadObj(const fs::path& path, Reading reading) {
                         path.string(), file.loss.vertices, file.loss.vertices == 1 ? "ex" : "ices",
                         file.loss.largest, file.loss.typicalEdge));
     }
-    ObjMaterials materials(path, reading);
+    ObjMaterials materials(path, files);
     for (const ObjPart& part : file.parts) {
         for (const std::string& names : part.notes.libraries)
             materials.load(names);
     }
     const std::vector<PartStart> starts = findStarts(file, materials);
-    materials.moveTo(mesh);
     mesh.origin = file.origin;
     mesh.geometry = buildGeometry(std::move(file), starts);
+    materials.moveTo(mesh);
     if (mesh.geometry.triangles.empty()) {
         throw InputError(path.string(), "", "has no faces", "expected at least one \"f\" statement");
     }

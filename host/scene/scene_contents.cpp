@@ -121,6 +121,8 @@ glm::dvec3 originOf(const SceneContents& contents) {
 void appendObjects(SceneContents& contents, Scene& scene) {
     Composer composer(scene);
     Losses losses;
+    for (Mesh& mesh : contents.meshes)
+        mesh.unusedMaterials.clear();  // that no copy needs
     std::vector<std::size_t> uses(contents.meshes.size(), 0);
     for (const SceneContents::Object& object : contents.objects)
         ++uses[object.mesh];

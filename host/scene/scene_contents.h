@@ -25,6 +25,9 @@ struct SceneContents {
         glm::vec3 edge1, edge2;
         Material material;
     };
+    explicit SceneContents(Reading reading) : materialFiles(reading) {}
+
+    MaterialFiles materialFiles;
     std::vector<Mesh> meshes;  ///< each file once, however many objects use it
     std::vector<Object> objects;
     std::vector<Light> lights;

@@ -129,8 +129,8 @@ std::size_t SourceText::lineOf(std::size_t offset) const {
     return 1 + static_cast<std::size_t>(ends + joined);
 }
 
-void SourceText::fail(const TextProblem& problem) const {
-    throw InputError(file(), fmt::format("line {}", lineOf(problem.offset)), problem.problem, problem.remedy);
+InputError SourceText::error(const TextProblem& problem) const {
+    return {file(), fmt::format("line {}", lineOf(problem.offset)), problem.problem, problem.remedy};
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -144,6 +144,19 @@ std::string_view trimmed(std::string_view text) {
 std::string_view firstWord(std::string_view text) {
     const auto end = std::find_if(text.begin(), text.end(), isBlank);
     return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+std::string_view withoutComment(std::string_view text) {
+    for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1)) {
+        if (at == 0 || isBlank(text[at - 1])) return trimmed(text.substr(0, at));
+    }
+    return trimmed(text);
+}
+
+std::string_view plainName(std::string_view name) {
+    name = withoutComment(name);
+    const bool isQuoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
+    return isQuoted ? trimmed(name.substr(1, name.size() - 2)) : name;
 }
 
 ReadNumber readNumber(const char* at, const char* end) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/error.h"
+
 namespace duolux {
 
 /// What is wrong with a text, and where.
@@ -33,8 +35,9 @@ class SourceText {
     /// 1 for the first line.
     std::size_t lineOf(std::size_t offset) const;
 
-    /// Throws InputError "FILE: line N: PROBLEM; REMEDY".
-    [[noreturn]] void fail(const TextProblem& problem) const;
+    /// "FILE: line N: PROBLEM; REMEDY".
+    InputError error(const TextProblem& problem) const;
+    [[noreturn]] void fail(const TextProblem& problem) const { throw error(problem); }
 
   private:
     std::filesystem::path path_;
@@ -47,6 +50,12 @@ std::string_view trimmed(std::string_view text);
 
 /// The text up to the first blank or line end.
 std::string_view firstWord(std::string_view text);
+
+/// Without the comment that "#" begins behind a blank, and without blanks at both ends.
+std::string_view withoutComment(std::string_view text);
+
+/// A name without a comment and the quotes around it.
+std::string_view plainName(std::string_view name);
 
 /// A number as %g writes it, also "nan", "inf" and "1.#IND" in their variants, which are not finite. `past`
 /// is null if none starts there.
