@@ -53,11 +53,6 @@ constexpr std::array kBinary{
 /// By the first words, in lower case, behind blanks.
 constexpr std::array kText{
     Signature{"version https://git-lfs"sv, "a Git LFS pointer"},
-    Signature{"/annex/objects/"sv, "a git-annex pointer"},
-    Signature{"ply\n"sv, "PLY"},
-    Signature{"ply\r"sv, "PLY"},
-    Signature{"off\n"sv, "OFF"},
-    Signature{"off\r"sv, "OFF"},
     Signature{"<!doctype html"sv, "an HTML page"},
     Signature{"<html"sv, "an HTML page"},
     Signature{"<?xml"sv, "XML"},
@@ -65,14 +60,23 @@ constexpr std::array kText{
     Signature{"<collada"sv, "COLLADA"},
     Signature{"#usda"sv, "USD"},
     Signature{"; fbx"sv, "FBX"},
-    Signature{"# .pcd"sv, "a PCD point cloud"},
-    Signature{"#vrml"sv, "VRML"},
+    Signature{"# .pcd v"sv, "a PCD point cloud"},
+    Signature{"#vrml v"sv, "VRML"},
 };
+
+/// By the first word, which OBJ, MTL and JSON do not begin with.
+constexpr std::array kWords{
+    Signature{"ply"sv, "PLY"},  Signature{"off"sv, "OFF"},   Signature{"coff"sv, "OFF"},
+    Signature{"noff"sv, "OFF"}, Signature{"cnoff"sv, "OFF"}, Signature{"stoff"sv, "OFF"},
+    Signature{"4off"sv, "OFF"},
+};
+
+constexpr std::string_view kBlanks = " \t\r\n";
 
 std::string lowerHead(std::string_view bytes) {
     constexpr std::size_t kHead = 1024;
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+    const std::size_t first = bytes.find_first_not_of(kBlanks);
     if (first == std::string_view::npos) return {};
     std::string head(bytes.substr(first, kHead));
     std::transform(head.begin(), head.end(), head.begin(),
@@ -88,18 +92,72 @@ bool isBinaryStl(std::string_view bytes) {
     return bytes.size() == kHeader + kFacet * facets && bytes.find('\0') != std::string_view::npos;
 }
 
+/// The first word, in which there may be anything but blanks.
+std::string_view wordAt(std::string_view text) {
+    return text.substr(0, text.find_first_of(kBlanks));
+}
+
+std::string_view behind(std::string_view text, std::size_t count) {
+    text.remove_prefix(count);
+    return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
+}
+
+/// A path into the objects that git-annex keeps, alone.
+bool isAnnexPointer(std::string_view head) {
+    const std::string_view path = wordAt(head);
+    return (path.starts_with('/') || path.starts_with('.')) &&
+           path.find("annex/objects/") != std::string_view::npos;
+}
+
+/// Pairs of a code and a value: a section begins it, perhaps behind comments.
+bool isDxf(std::string_view head) {
+    if (wordAt(head) == "999") return head.find("\nsection") != std::string_view::npos;
+    return wordAt(head) == "0" && wordAt(behind(head, 1)) == "section";
+}
+
+/// "asset" with its "version", which no material of that name has.
+bool isGltf(std::string_view head) {
+    constexpr std::string_view kAsset = "\"asset\"";
+    const std::size_t at = head.find(kAsset);
+    if (!head.starts_with('{') || at == std::string_view::npos) return false;
+    std::string_view rest = behind(head, at + kAsset.size());
+    if (!rest.starts_with(':')) return false;
+    rest = behind(rest, 1);
+    return rest.starts_with('{') &&
+           rest.substr(0, rest.find('}')).find("\"version\"") != std::string_view::npos;
+}
+
+/// Latin text in 16 bits a character, without a byte order mark.
+bool isWideText(std::string_view bytes) {
+    constexpr std::size_t kFewest = 8, kMost = 64;
+    const std::size_t count = std::min(bytes.size(), kMost) / 2;
+    std::size_t zerosFirst = 0, zerosSecond = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        zerosFirst += bytes[2 * i] == '\0' ? 1 : 0;
+        zerosSecond += bytes[2 * i + 1] == '\0' ? 1 : 0;
+    }
+    return 2 * count >= kFewest && std::max(zerosFirst, zerosSecond) == count &&
+           std::min(zerosFirst, zerosSecond) == 0;
+}
+
 /// Empty if it may be what its name says.
 std::string_view foreignKind(std::string_view bytes, bool jsonExpected) {
     for (const Signature& signature : kBinary) {
         if (bytes.starts_with(signature.bytes)) return signature.kind;
     }
+    if (isWideText(bytes)) return "UTF-16 text";
     const std::string head = lowerHead(bytes);
     for (const Signature& signature : kText) {
         if (head.starts_with(signature.bytes)) return signature.kind;
     }
+    for (const Signature& signature : kWords) {
+        if (wordAt(head) == signature.bytes) return signature.kind;
+    }
+    if (isAnnexPointer(head)) return "a git-annex pointer";
+    if (isDxf(head)) return "DXF";
     if (isBinaryStl(bytes)) return "STL";
     if (head.starts_with("solid") && head.find("facet") != std::string::npos) return "STL";
-    if (head.starts_with("{") && head.find("\"asset\"") != std::string::npos) return "glTF";
+    if (isGltf(head)) return "glTF";
     if (!jsonExpected && head.starts_with("{")) return "JSON";
     return {};
 }

@@ -230,9 +230,36 @@ TEST_F(LenientTest, FilesOfAnotherKindAreCalledWhatTheyAre) {
     EXPECT_THAT(errorOfObj("\x1F\x8B\x08"), StartsWith("mesh.obj: is compressed by gzip; "));
     EXPECT_THAT(errorOfObj("\n<!DOCTYPE html>\n"), StartsWith("mesh.obj: is an HTML page; "));
     EXPECT_THAT(errorOfObj(std::string("\xFF\xFEv\0", 4)), StartsWith("mesh.obj: is UTF-16 text; "));
+    const auto kindOf = [&](const std::string& text) {
+        const std::string error = errorOfObj(text);
+        return error.substr(0, error.find(';'));
+    };
+    EXPECT_EQ(kindOf("OFF 3 1 0\n0 0 0\n"), "mesh.obj: is OFF");
+    EXPECT_EQ(kindOf("ply \nformat ascii 1.0\n"), "mesh.obj: is PLY");
+    EXPECT_EQ(kindOf("  0\r\nSECTION\r\n  2\r\nHEADER\r\n"), "mesh.obj: is DXF");
+    EXPECT_EQ(kindOf("999\nby foo\n0\nSECTION\n"), "mesh.obj: is DXF");
+    EXPECT_EQ(kindOf("../../.git/annex/objects/1/2/SHA256E-s3--ab.obj\n"),
+              "mesh.obj: is a git-annex pointer");
+    EXPECT_EQ(kindOf("/annex/objects/SHA256E-s3--ab.obj\n"), "mesh.obj: is a git-annex pointer");
+    EXPECT_EQ(kindOf("#VRML V2.0 utf8\n"), "mesh.obj: is VRML");
+    EXPECT_EQ(kindOf("# .PCD v0.7 - Point Cloud\n"), "mesh.obj: is a PCD point cloud");
+    EXPECT_EQ(kindOf(std::string("v\0 \0001\0 \0002\0", 10)), "mesh.obj: is UTF-16 text");
+    EXPECT_EQ(kindOf(std::string("\0v\0 \0001\0 \0002", 10)), "mesh.obj: is UTF-16 text");
     write("m.mtl", lfs);
     EXPECT_THAT(withoutLight(loadObj("mtllib m.mtl\n" + std::string(kTriangleObj)).warnings),
                 ElementsAre(HasSubstr("m.mtl: is a Git LFS pointer; ")));
+}
+
+TEST_F(LenientTest, CommentsAndNamesDoNotMakeAFileForeign) {
+    for (const char* comment : {"# .pcd to obj by foo\n", "#VRML2OBJ export\n", "# ply\n", "o off\n"})
+        EXPECT_EQ(loadObj(comment + std::string(kTriangleObj)).content.triangles, 1u) << comment;
+    write("asset.obj", "usemtl asset\n" + std::string(kTriangleObj));
+    EXPECT_EQ(
+        loadJson(
+            R"({"materials": {"asset": {"diffuse": 0.5}}, "duolux": 1, "objects": [{"mesh": "asset.obj"}]})")
+            .materials[0]
+            .diffuse,
+        glm::vec3(0.5f));
 }
 
 }  // namespace
