@@ -30,8 +30,8 @@ std::string toText(const glm::dvec3& v) {
 /// A place in the coordinates of the file.
 std::string toText(const Scene& scene, const glm::vec3& place) {
     if (scene.origin == glm::dvec3(0.0)) return toText(place);
-    const glm::dvec3 v = scene.origin + glm::dvec3(place);
-    return fmt::format("{:.10g}, {:.10g}, {:.10g}", v.x, v.y, v.z);
+    const glm::dvec3 v = placeInFile(scene, place);
+    return fmt::format("{}, {}, {}", v.x, v.y, v.z);
 }
 
 /// One number if the channels agree.
@@ -90,6 +90,9 @@ void printGeometry(const Scene& scene) {
                                          withSeparators(smoothTriangles(geometry))));
     }
     printField("bounds", fmt::format("{}  to  {}", toText(scene, bounds.lower), toText(scene, bounds.upper)));
+    if (scene.origin != glm::dvec3(0.0)) {
+        printField("origin", fmt::format("{}, {}, {}", scene.origin.x, scene.origin.y, scene.origin.z));
+    }
     printField("memory", fmt::format("{} of geometry on the host", bytes(memoryOf(geometry))));
 }
 

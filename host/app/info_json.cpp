@@ -28,14 +28,8 @@ Json toJson(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// A place in the coordinates of the file.
 Json placeJson(const Scene& scene, const glm::vec3& place) {
-    if (scene.origin == glm::dvec3(0.0)) return toJson(place);
-    const glm::dvec3 there = scene.origin + glm::dvec3(place);
-    Json result = Json::array();
-    for (int i = 0; i < 3; ++i)  // the digits that the float has
-        result.push_back(std::strtod(fmt::format("{:.12g}", there[i]).c_str(), nullptr));
-    return result;
+    return scene.origin == glm::dvec3(0.0) ? toJson(place) : toJson(placeInFile(scene, place));
 }
 
 Json cameraOf(const Scene& scene) {
@@ -73,6 +67,19 @@ Json materialsOf(const Scene& scene) {
 }
 
 }  // namespace
+
+glm::dvec3 placeInFile(const Scene& scene, const glm::vec3& place) {
+    glm::dvec3 result = scene.origin + glm::dvec3(place);
+    for (int i = 0; i < 3; ++i) {
+        for (int digits = 6; digits < 17; ++digits) {
+            const double shorter = std::strtod(fmt::format("{:.{}g}", result[i], digits).c_str(), nullptr);
+            if (static_cast<float>(shorter - scene.origin[i]) != place[i]) continue;
+            result[i] = shorter;
+            break;
+        }
+    }
+    return result;
+}
 
 std::string cameraJson(const Scene& scene) {
     std::string text;
@@ -131,6 +138,7 @@ Json infoJson(const Scene& scene) {
     info["vertices"] = geometry.positions.size();
     info["smooth_triangles"] = smoothTriangles(geometry);
     info["bounds"] = {{"lower", placeJson(scene, bounds.lower)}, {"upper", placeJson(scene, bounds.upper)}};
+    info["origin"] = toJson(scene.origin);
     info["geometry_bytes"] = memoryOf(geometry);
     info["camera"] = cameraOf(scene);
     info["film"] = {{"width", scene.render.width}, {"height", scene.render.height}};

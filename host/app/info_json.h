@@ -10,6 +10,9 @@ namespace duolux {
 /// All that `duolux info` tells of a scene, for scripts.
 nlohmann::ordered_json infoJson(const Scene& scene);
 
+/// A place of the scene in the coordinates of its file, with as many digits as give the same place again.
+glm::dvec3 placeInFile(const Scene& scene, const glm::vec3& place);
+
 /// The camera as scene files give it, on one line.
 std::string cameraJson(const Scene& scene);
 

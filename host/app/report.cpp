@@ -36,7 +36,8 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
     report["scene"] = {{"file", scene.source.string()},
                        {"hash", scene.hash},
                        {"triangles", scene.geometry.triangles.size()},
-                       {"materials", scene.materials.size()}};
+                       {"materials", scene.materials.size()},
+                       {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}}};
     report["settings"] = {{"width", scene.render.width},
                           {"height", scene.render.height},
                           {"spp", scene.render.spp - firstSample},

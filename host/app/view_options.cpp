@@ -22,8 +22,7 @@ std::optional<glm::dvec3> parseTriple(const std::string& text) {
     const char* const end = at + text.size();
     for (int i = 0; i < 3; ++i) {
         const auto [next, error] = std::from_chars(at, end, result[i]);
-        if (error != std::errc() || !(std::abs(result[i]) <= static_cast<double>(kLargestCoordinate)))
-            return std::nullopt;
+        if (error != std::errc() || !(std::abs(result[i]) <= kFarthestPlace)) return std::nullopt;
         const bool last = i == 2;
         if (last ? next != end : next == end || *next != ',') return std::nullopt;
         at = next + 1;
@@ -35,7 +34,7 @@ glm::dvec3 parseVector(std::string_view option, const std::string& text, std::st
     const std::optional<glm::dvec3> vector = parseTriple(text);
     if (vector) return *vector;
     throw UsageError(fmt::format("{} {}: expected {}three numbers X,Y,Z of at most {:g} in magnitude", option,
-                                 text, alternatives, kLargestCoordinate));
+                                 text, alternatives, kFarthestPlace));
 }
 
 glm::dvec3 parseUp(const std::string& text) {

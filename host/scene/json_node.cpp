@@ -80,6 +80,10 @@ std::vector<JsonNode> JsonNode::elements(std::string_view remedy, std::optional<
     return elements;
 }
 
+bool JsonNode::isNumber() const {
+    return value_->is_number();
+}
+
 bool JsonNode::isArray() const {
     return value_->is_array();
 }

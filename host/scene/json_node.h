@@ -38,6 +38,7 @@ class JsonNode {
                                    std::optional<std::size_t> count = std::nullopt) const;
 
     bool isArray() const;
+    bool isNumber() const;
     /// A finite number in [low, high].
     double number(double low, double high, std::string_view remedy) const;
     /// A whole number in [low, high].

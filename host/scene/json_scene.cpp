@@ -28,16 +28,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string& pointRemedy() {
-    static const std::string kRemedy =
-        fmt::format("expected [x, y, z], at most {:g} in magnitude", kLargestCoordinate);
+std::string vectorRemedy(double largest) {
+    return fmt::format("expected [x, y, z], at most {:g} in magnitude", largest);
+}
+
+const std::string& placeRemedy() {
+    static const std::string kRemedy = vectorRemedy(kFarthestPlace);
     return kRemedy;
 }
 
-/// A place or a direction.
-glm::dvec3 readPoint(const JsonNode& node) {
-    const auto largest = static_cast<double>(kLargestCoordinate);
-    return node.vector(-largest, largest, pointRemedy());
+/// In the coordinates of the files, which may be far from the origin.
+glm::dvec3 readPlace(const JsonNode& node) {
+    return node.vector(-kFarthestPlace, kFarthestPlace, placeRemedy());
+}
+
+constexpr auto kLongestDirection = static_cast<double>(kLargestCoordinate);
+
+const std::string& directionRemedy() {
+    static const std::string kRemedy = vectorRemedy(kLongestDirection);
+    return kRemedy;
+}
+
+glm::dvec3 readDirection(const JsonNode& node) {
+    return node.vector(-kLongestDirection, kLongestDirection, directionRemedy());
 }
 
 /// The sine of the angle between two vectors, 0 if one of them is 0.
@@ -49,9 +62,9 @@ double sineBetween(const glm::vec3& a, const glm::vec3& b) {
 CameraChoice readCamera(const JsonNode& node) {
     node.expectKeys({"position", "target", "up", "vfov"});
     CameraChoice camera;
-    if (const auto position = node.find("position")) camera.position = readPoint(*position);
-    if (const auto target = node.find("target")) camera.target = readPoint(*target);
-    if (const auto up = node.find("up")) camera.up = readPoint(*up);
+    if (const auto position = node.find("position")) camera.position = readPlace(*position);
+    if (const auto target = node.find("target")) camera.target = readPlace(*target);
+    if (const auto up = node.find("up")) camera.up = readDirection(*up);
     if (const auto vfov = node.find("vfov")) {
         const char* const remedy = "expected the full vertical angle in degrees, between 0 and 180";
         camera.vfov = static_cast<float>(vfov->number(0.0, 180.0, remedy));
@@ -95,12 +108,15 @@ glm::vec2 readDisplay(const JsonNode& node) {
 
 glm::dmat4 readTransform(const JsonNode& node) {
     const char* const remedy = "expected 16 numbers, a 4x4 matrix row by row";
-    const auto largest = static_cast<double>(kLargestCoordinate);
     const std::vector<JsonNode> entries = node.elements(remedy, 16);
     glm::dmat4 matrix;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const int row = static_cast<int>(i / 4), column = static_cast<int>(i % 4);
-        matrix[column][row] = entries[i].number(-largest, largest, remedy);
+        const double largest = column == 3 ? kFarthestPlace : kLongestDirection;
+        matrix[column][row] = entries[i].number(
+            -largest, largest,
+            entries[i].isNumber() ? fmt::format("expected a number of at most {:g} in magnitude", largest)
+                                  : std::string(remedy));
     }
     if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]) !=
         glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
@@ -156,9 +172,9 @@ void readLight(const JsonNode& node, SceneContents& contents) {
     static const std::array<std::string, 1> kTypes{"rectangle"};
     node.require("type", "expected \"rectangle\"").choice(kTypes);
     SceneContents::Light light{node,
-                               readPoint(node.require("origin", pointRemedy())),
-                               glm::vec3(readPoint(node.require("edge1", pointRemedy()))),
-                               glm::vec3(readPoint(node.require("edge2", pointRemedy()))),
+                               readPlace(node.require("origin", placeRemedy())),
+                               glm::vec3(readDirection(node.require("edge1", directionRemedy()))),
+                               glm::vec3(readDirection(node.require("edge2", directionRemedy()))),
                                {}};
     if (sineBetween(light.edge1, light.edge2) < kSmallestSine) {
         node.fail("edge1 and edge2 span no area", "expected two directions across each other");

@@ -30,6 +30,10 @@ inline const std::string kDefaultMaterialName = "default";
 /// areas then fit a float.
 inline constexpr float kLargestCoordinate = 1e9f;
 
+/// Places in scene files and on the command line, before the scene's origin is taken off, must not be farther
+/// away than this.
+inline constexpr double kFarthestPlace = 1e18;
+
 /// Emitted radiance must not be larger than this. (The nearest float is smaller.)
 inline constexpr double kLargestRadiance = 1e12;
 

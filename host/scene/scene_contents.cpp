@@ -154,6 +154,10 @@ void appendLights(const SceneContents& contents, Scene& scene) {
     Losses losses;
     for (const SceneContents::Light& light : contents.lights) {
         const glm::dvec3 corner = light.corner - scene.origin;
+        if (glm::any(glm::greaterThan(glm::abs(corner), glm::dvec3(kLargestCoordinate)))) {
+            light.node.fail("is too far from the rest of the scene",
+                            fmt::format("expected a distance of at most {:g}", kLargestCoordinate));
+        }
         losses.add(light.node, roundingError(corner), typicalEdge(light));
         composer.append({glm::vec3(corner), light.edge1, light.edge2}, light.material);
     }

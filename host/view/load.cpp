@@ -74,13 +74,23 @@ class View {
     float aspect_;
 };
 
+/// A place of the file in the scene's coordinates.
+glm::dvec3 withinScene(const Scene& scene, const char* what, const glm::dvec3& place) {
+    const glm::dvec3 local = place - scene.origin;
+    if (glm::any(glm::greaterThan(glm::abs(local), glm::dvec3(kLargestCoordinate)))) {
+        throw InputError(scene.source.string(), what, "is too far from the scene",
+                         fmt::format("expected a distance of at most {:g}", kLargestCoordinate));
+    }
+    return local;
+}
+
 void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices) {
     CameraChoice camera = read.camera.overriddenBy(choices.camera);
     if (const auto wrong = camera.contradiction()) {
         throw InputError(scene.source.string(), "camera", wrong->problem, wrong->remedy);
     }
-    if (camera.position) *camera.position -= scene.origin;
-    if (camera.target) *camera.target -= scene.origin;
+    if (camera.position) *camera.position = withinScene(scene, "camera.position", *camera.position);
+    if (camera.target) *camera.target = withinScene(scene, "camera.target", *camera.target);
     const bool emits = anyEmitter(scene);
     const bool mayAddLamp = choices.lamp == Lamp::kAlways ||
                             (choices.lamp == Lamp::kIfDark && !read.hasLights && anySurfaceScatters(scene));

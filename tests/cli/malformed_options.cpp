@@ -36,7 +36,7 @@ std::vector<WrongUsage> wrongUsages() {
         render("LookAtOfTwo", {"--look-at", "1,2"}, {"--look-at 1,2", "X,Y,Z"}),
         render("LookAtOfWord", {"--look-at", "1,2,up"}, {"--look-at 1,2,up", "X,Y,Z"}),
         render("CameraPositionInfinite", {"--camera-position", "1,2,1e30"},
-               {"--camera-position 1,2,1e30", "1e+09"}),
+               {"--camera-position 1,2,1e30", "1e+18"}),
         render("CameraPositionNotANumber", {"--camera-position", "nan,2,3"}, {"--camera-position nan,2,3"}),
         render("CameraAtWhatItLooksAt", {"--camera-position", "1,2,3", "--look-at", "1,2,3"},
                {"--camera-position 1,2,3", "--look-at", "the same"}),

@@ -110,12 +110,37 @@ TEST_F(ViewCommand, InfoShowsTheCameraAsASceneFileGivesIt) {
     EXPECT_EQ(info["camera"], camera);
     EXPECT_EQ(info["version"], 1);
     for (const char* key :
-         {"scene", "hash", "triangles", "vertices", "smooth_triangles", "bounds", "geometry_bytes", "film",
-          "render", "display", "reflectance", "lights", "materials", "energy", "warnings"}) {
+         {"scene", "hash", "triangles", "vertices", "smooth_triangles", "bounds", "origin", "geometry_bytes",
+          "film", "render", "display", "reflectance", "lights", "materials", "energy", "warnings"}) {
         EXPECT_TRUE(info.contains(key)) << key;
     }
     EXPECT_EQ(info["materials"][0]["name"], "white");
     EXPECT_EQ(info["materials"][0]["diffuse"][0], 0.8);
+}
+
+TEST_F(ViewCommand, FarFromTheOriginACameraCanStillBePasted) {
+    std::ofstream(folder_.path() / "m.obj") << "v 1000000000000 5 1000000002000.25\nv 1000000000003.5 5 "
+                                               "1000000002000\nv 1000000000000 8 1000000002000\nf 1 2 3\n";
+    const ProgramResult text = runDuolux(folder_.path(), {"info", "m.obj"});
+    ASSERT_EQ(text.status, 0) << text.err;
+    EXPECT_THAT(text.out,
+                HasSubstr("1000000000000, 5, 1000000002000  to  1000000000003.5, 8, 1000000002000.25"));
+    EXPECT_THAT(text.out, HasSubstr("origin       1000000000002, 7, 1000000002000\n"));
+    const std::size_t begin = text.out.find('{');
+    const std::string line = text.out.substr(begin, text.out.find('\n', begin) - begin);
+    std::ofstream(folder_.path() / "s.json")
+        << R"({"duolux": 1, "objects": [{"mesh": "m.obj"}], "camera": )" << line << "}";
+    const ProgramResult pasted = runDuolux(folder_.path(), {"info", "s.json", "--json"});
+    ASSERT_EQ(pasted.status, 0) << pasted.err;
+    const nlohmann::json info = nlohmann::json::parse(pasted.out);
+    EXPECT_EQ(info["camera"], nlohmann::json::parse(line));
+    EXPECT_NE(info["camera"]["position"], info["camera"]["target"]);
+    EXPECT_EQ(info["origin"], nlohmann::json::parse("[1000000000002.0, 7.0, 1000000002000.0]"));
+    const ProgramResult rendered =
+        runDuolux(folder_.path(), {"render", "s.json", "--device", "cpu", "--size", "8x8", "--spp", "1", "-o",
+                                   "a.png", "--quiet", "--report", "-"});
+    ASSERT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_EQ(nlohmann::json::parse(rendered.out)["scene"]["origin"], info["origin"]);
 }
 
 TEST_F(ViewCommand, DevicesCanBeReadByScripts) {

@@ -98,6 +98,27 @@ TEST_F(OriginTest, ATransformMayBringAFarMeshHome) {
     EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("far from the origin"))));
 }
 
+TEST_F(OriginTest, PlacesBeyondTheLimitOfFloatsAreMovedWithin) {
+    write("far.obj", triangleAt({1e12, 1e12, 120}));
+    const Scene home = loadJson(R"({"duolux": 1, "objects": [{"mesh": "far.obj",
+        "transform": [1,0,0,-1e12, 0,1,0,-1e12, 0,0,1,-120, 0,0,0,1]}]})");
+    EXPECT_NEAR(glm::length(corner(home, 0, 0)), 0.0, 1e-6);
+    const std::string away = R"({"duolux": 1, "objects": [{"mesh": "far.obj"}],
+        "camera": {"position": [1000000002000, 1000000000000, 120], "target": [1e12, 1e12, 120]}, )";
+    const Scene there = loadJson(away + R"("film": {"width": 9}})");
+    EXPECT_NEAR(glm::distance(there.camera.position, there.camera.target), 2000.0f, 1e-3f);
+    EXPECT_EQ(
+        errorOfJson(R"({"duolux": 1, "objects": [{"mesh": "far.obj"}], "camera": {"position": [0, 0, 0]}})"),
+        "scene.json: camera.position: is too far from the scene; expected a distance of at most 1e+09");
+    EXPECT_THAT(
+        errorOfJson(R"({"duolux": 1, "objects": [{"mesh": "far.obj",
+                    "transform": [1,0,0,1e20, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})"),
+        HasSubstr("objects[0].transform[3]: is 1e+20; expected a number of at most 1e+18 in magnitude"));
+    EXPECT_THAT(errorOfJson(away + R"("lights": [{"type": "rectangle", "origin": [1e12, 2e12, 0],
+                    "edge1": [1, 0, 0], "edge2": [0, 1, 0], "emission": {"visible": 1}}]})"),
+                HasSubstr("lights[0]: is too far from the rest of the scene"));
+}
+
 /// A landscape of 60 km with vertices every 3 km, as a survey writes it.
 std::string landscape() {
     std::string text;
