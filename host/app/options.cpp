@@ -87,9 +87,11 @@ CLI::Validator notEmpty() {
 }
 
 void addStrictOption(CLI::App& command, bool& strict) {
-    command.add_flag("--strict", strict,
-                     "Refuse scene files with errors that do not matter, such as missing normals (default: "
-                     "warn of them)");
+    command.add_flag(
+        "--strict", strict,
+        "Refuse scene files with errors that are otherwise warnings: numbers, normals, corners and "
+        "faces of meshes that are not right, colours that are not three numbers from 0 on, MTL "
+        "files that are missing or unreadable, materials undefined or defined twice");
 }
 
 std::string describeParseError(const CLI::App& app, const CLI::ParseError& error) {
