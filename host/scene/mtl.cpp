@@ -122,7 +122,8 @@ class MtlReader {
             const std::string_view word = firstWord(rest);
             const char* const end = word.data() + word.size();
             const auto [past, value] = readNumber(word.data(), end);
-            if (past != end || !std::isfinite(value)) {
+            const bool isLast = past != nullptr && past != end && *past == '#';
+            if (!(past == end || isLast) || !std::isfinite(value)) {
                 return tolerate(Oddity::kColour, line,
                                 fmt::format("{}: {} is not a finite number", keyword, inQuotes(word)),
                                 remedy);
@@ -133,6 +134,7 @@ class MtlReader {
             }
             if (count < 3) colour[count] = std::max(value, 0.0);
             ++count;
+            if (isLast) break;
             rest = trimmed(rest.substr(word.size()));
         }
         if (count != 3) {

@@ -41,7 +41,12 @@ void ObjFaceReader::read(const char* line, const char* arguments, const ObjCount
     const std::size_t first = part_.cornerVertices.size();
     bad_.reset();
     for (const char* at = arguments; (at = nextArgument(at)) != nullptr;) {
-        at = readCorner(at, seen);
+        if (*at == ',') {
+            complaints_.tolerate(ObjOddity::kCornerRest, at, [&] { complaints_.report(notACorner(at)); });
+            ++at;
+        } else {
+            at = readCorner(at, seen);
+        }
         if (complaints_.problem()) return;
     }
     const std::size_t corners = part_.cornerVertices.size() - first;

@@ -29,7 +29,7 @@ ObjNumbers readObjNumbers(const char* arguments, const char* end) {
     };
     for (const char* at = arguments; (at = nextArgument(at)) != nullptr;) {
         const auto [past, value] = readNumber(at, end);
-        if (past == nullptr || !(isBlank(*past) || isLineEnd(*past))) {
+        if (past == nullptr || !(isBlank(*past) || isLineEnd(*past) || *past == '#')) {
             note(numbers.notNumber, at);
             return numbers;
         }

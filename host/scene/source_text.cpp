@@ -172,7 +172,12 @@ ReadNumber readNumber(const char* at, const char* end) {
     if (error == std::errc::result_out_of_range)
         value = std::strtod(std::string(first, past).c_str(), nullptr);
     if (past == end || *past != '#') return {past, value};
-    const char* word = past;  // as in 1.#IND, which Microsoft's library wrote
+    // As in 1.#IND, which Microsoft's library wrote; any other "#" begins a comment.
+    static constexpr std::array<std::string_view, 4> kNotFinite{"#IND", "#INF", "#QNAN", "#SNAN"};
+    const std::string_view rest(past, static_cast<std::size_t>(end - past));
+    if (std::none_of(kNotFinite.begin(), kNotFinite.end(), [&](auto name) { return rest.starts_with(name); }))
+        return {past, value};
+    const char* word = past;
     while (word != end && !isBlank(*word))
         ++word;
     return {word, std::numeric_limits<double>::quiet_NaN()};

@@ -78,7 +78,7 @@ TEST_F(LenientTest, CornersMayEndInASlash) {
 TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
     const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
     for (const char* face : {"1/1// 2/1// 3/1//", "1/1/1/1 2/1/1/1 3/1/1/1", "1.0 2.0 3.0", "1/// 2/// 3///",
-                             "1, 2, 3,", "1,2,3,", "1.0/1.0/1.0 2.0/1.0/1.0 3.0/1.0/1.0"}) {
+                             "1, 2, 3,", "1 , 2 , 3 ,", "1,2,3,", "1.0/1.0/1.0 2.0/1.0/1.0 3.0/1.0/1.0"}) {
         const Scene scene = loadObj(head + "f " + face + "\n");
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
         EXPECT_THAT(
@@ -170,6 +170,15 @@ TEST_F(LenientTest, NumbersThatAreNotUsedMayBeAnything) {
     EXPECT_EQ(errorOfObj("v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
               "mesh.obj: line 1: 2 numbers; expected \"v x y z\"");
     EXPECT_EQ(smoothTriangles("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1 nan\nf 1//1 2//1 3//1\n"), 1u);
+}
+
+TEST_F(LenientTest, CommentsMayFollowNumbersAtOnce) {
+    EXPECT_THAT(warningsOf("v 0 0 2#c\nvn 0 0 1#c\nvt 0 0#c\nf 5/1/1 2/1/1 3/1/1#c\n"), IsEmpty());
+    EXPECT_THAT(warningsOf("v 0 0 1.#INF\nv 0 0 -1.#IND00\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("(and 1 more)")));
+    write("m.mtl", "newmtl a\nKd 1 0 0.5#c\n");
+    EXPECT_EQ(loadObj("mtllib m.mtl\nusemtl a\n" + std::string(kTriangleObj)).materials[0].diffuse,
+              glm::vec3(1, 0, 0.5f));
 }
 
 TEST_F(LenientTest, WeightsOfVerticesAreNotUsed) {
