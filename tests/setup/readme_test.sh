@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The scene file and the commands that the README shows do work. usage: readme_test.sh DUOLUX SOURCE_DIR
+# The commands of the README and of the performance notes work, and so does the scene file of the page on scenes.
+# usage: readme_test.sh DUOLUX SOURCE_DIR
 set -euo pipefail
 duolux=$1
 source=$2
@@ -7,16 +8,17 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 cp "$source"/assets/cornell/cornell.{obj,mtl} .
+ln -s "$source/assets" assets
 
 # The JSON block: indented by four, from the line of the opening brace to that of the closing one.
-sed -n '/^    {$/,/^    }$/s/^    //p' "$source/README.md" >scene.json
+sed -n '/^    {$/,/^    }$/s/^    //p' "$source/host/scene/README.md" >scene.json
 grep -q '"duolux": 1' scene.json
 "$duolux" info scene.json
 "$duolux" render scene.json --size 16x16 --spp 1 --quiet -o scene.png
 
 # The command lines, with a small picture of a model that is there.
 cp cornell.obj model.obj
-sed -n 's/^    build\/duolux \([^#]*\)\(#.*\)\?$/\1/p' "$source/README.md" >commands
+sed -n 's/^    build\/duolux \([^#]*\)\(#.*\)\?$/\1/p' "$source"/{README.md,tests/bench/PERFORMANCE.md} >commands
 (($(wc -l <commands) >= 3))
 while read -r -a arguments; do
   extra=()
