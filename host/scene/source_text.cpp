@@ -74,13 +74,24 @@ class LineStarts {
 void blankUnusualSpaces(std::string& bytes) {
     std::replace_if(
         bytes.begin(), bytes.end(), [](char c) { return c == '\f' || c == '\v'; }, ' ');
-    constexpr std::string_view kNoBreakSpace = "\xC2\xA0";
+    constexpr char kLead = '\xC2', kNoBreakSpace = '\xA0';  // in UTF-8; Latin-1 has the latter alone
     LineStarts lines(bytes);
     for (std::size_t at = bytes.find(kNoBreakSpace); at != std::string::npos;
          at = bytes.find(kNoBreakSpace, at + 1)) {
         lines.moveTo(at);
-        if (!lines.inComment() && !lines.holdsNames()) bytes.replace(at, 2, 2, ' ');
+        if (lines.inComment() || lines.holdsNames()) continue;
+        bytes[at] = ' ';
+        if (at > 0 && bytes[at - 1] == kLead) bytes[at - 1] = ' ';
     }
+}
+
+/// Zero bytes fill the last block of a file, and Control-Z ended files of CP/M and DOS.
+void endAtPadding(std::string& bytes) {
+    using namespace std::string_view_literals;
+    constexpr std::string_view kPadding = "\0\x1A"sv, kPaddingAndBlanks = "\0\x1A \t\r\n"sv;
+    const std::size_t end = bytes.find_last_not_of(kPaddingAndBlanks) + 1;  // 0 if there is nothing else
+    if (const std::size_t padding = bytes.find_first_of(kPadding, end); padding != std::string::npos)
+        bytes.resize(padding);
 }
 
 /// A backslash continues a line if only blanks stand between it and the line's end. Where it ends a name, as
@@ -107,9 +118,7 @@ std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
 SourceText::SourceText(const std::filesystem::path& path, std::string_view expected)
     : path_(path), bytes_(readFile(path)) {
     expectNoForeignFormat(path, bytes_, expected);
-    constexpr char kControlZ = 0x1A;  // ended files of CP/M and DOS
-    while (!bytes_.empty() && (bytes_.back() == '\0' || bytes_.back() == kControlZ))
-        bytes_.pop_back();
+    endAtPadding(bytes_);
     if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.replace(0, 3, 3, ' ');
     if (!bytes_.empty()) {
         if (const void* zero = std::memchr(bytes_.data(), 0, bytes_.size())) {

@@ -87,11 +87,12 @@ TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
                         "more): the rest is ignored"))
             << face;
     }
-    for (const char* face : {"+1 +2 +3", "1 2 3#4", "1 2 3 \x1A", "1\f2\v3",
-                             "1\xC2\xA0"
-                             "2\xC2\xA0"
-                             "3",
-                             "1 \\ \n2 \\\t\r\n3", "1 2 3 \\", "1 2 3\\"}) {
+    for (const char* face :
+         {"+1 +2 +3", "1 2 3#4", "1 2 3 \x1A", "1 2 3\n\x1A\r\n", "1\xA0 2\xA0 3", "1\f2\v3",
+          "1\xC2\xA0"
+          "2\xC2\xA0"
+          "3",
+          "1 \\ \n2 \\\t\r\n3", "1 2 3 \\", "1 2 3\\"}) {
         const Scene scene = loadObj(head + "f " + face);
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
         EXPECT_THAT(withoutLight(scene.warnings), IsEmpty()) << face;
