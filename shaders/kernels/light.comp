@@ -15,52 +15,22 @@
 #extension GL_EXT_shader_atomic_int64 : require
 #endif
 
-#include "shaders/shared/bvh_layout.h"
+#include "shaders/kernels/scene.glsl"
+#include "shaders/lib/film.glsl"
+#include "shaders/lib/light_path.glsl"
 #include "shaders/shared/light_layout.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kLeaveTraversal = 4u;
-layout(constant_id = 2) const uint kLeaveNodes = 3u;
-layout(constant_id = 10) const bool kSmoothNormals = true;
-layout(constant_id = 11) const uint kSampler = 0u;
-layout(constant_id = 14) const uint kTeamSize = 8u;
-layout(constant_id = 15) const uint kCameraTransmittance = 2u;
-layout(constant_id = 16) const uint kFilmBands = 1u;
-layout(constant_id = 17) const uint kBandPixels = 1u;
+layout(constant_id = kSpecCameraTransmittance) const uint kCameraTransmittance = kTransmittanceGeneral;
+layout(constant_id = kSpecFilmBands) const uint kFilmBands = 1u;
+layout(constant_id = kSpecBandPixels) const uint kBandPixels = 1u;
 
-layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normalTexels;
-layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
-layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
-layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
-layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { LaneResult results[]; };
-layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 #ifdef DUOLUX_INT64_ATOMICS
 layout(binding = kBindingFilm, scalar) buffer FilmBlock { uint64_t sums[]; } film[kFilmBands];
 #else
 layout(binding = kBindingFilm, scalar) buffer FilmBlock { uvec2 sums[]; } film[kFilmBands];
 #endif
 layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
-
-#include "shaders/kernels/layout.glsl"
-#include "shaders/lib/camera.glsl"
-#include "shaders/lib/film.glsl"
-#include "shaders/lib/light_path.glsl"
-#include "shaders/lib/lights.glsl"
-#include "shaders/lib/sampler.glsl"
-#include "shaders/lib/surface.glsl"
-#include "shaders/lib/transport.glsl"
-
-uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
-uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
-uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
-uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
-
-LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
-LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
-LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
-
-const float kInfinity = 1e30;
 
 // Component that surfaces may scatter or pass on, the largest channel: without second columns the visible one is lost
 // on all but the camera.
@@ -302,7 +272,6 @@ void main() {
     uint teamBegin = team * dispatch.teamPaths;
     if (teamBegin >= dispatch.count) return;
     uint teamPaths = min(dispatch.teamPaths, dispatch.count - teamBegin);
-    const bool ordered = kTransmittance != kTransmittanceZero || kPlanes;
     uint progress = dispatch.firstTeam + team;
 
     LaneSums sums = emptySums();
@@ -317,7 +286,7 @@ void main() {
     Traversal ray = nextRay(path, connection, sums);
 
     while (working) {
-        traverse(ray, ordered, kLeaveTraversal, kLeaveNodes);
+        traverse(ray, kOrdered, kLeaveTraversal, kLeaveNodes);
         if (!traversalAlive(ray)) {
             bool found = ray.triangle != kNoTriangle;
             Triangle tri = fetchTriangle(found ? ray.triangle : 0u);

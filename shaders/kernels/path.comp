@@ -9,47 +9,16 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-#include "shaders/shared/bvh_layout.h"
-#include "shaders/shared/path_layout.h"
+#include "shaders/kernels/scene.glsl"
+#include "shaders/lib/polygon_light.glsl"
+#include "shaders/lib/slot_sums.glsl"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kLeaveTraversal = 4u;
-layout(constant_id = 2) const uint kLeaveNodes = 3u;
-layout(constant_id = 10) const bool kSmoothNormals = true;
-layout(constant_id = 11) const uint kSampler = 0u;
-layout(constant_id = 12) const uint kDirectLight = 1u;
-layout(constant_id = 13) const bool kHasEmitters = true;
-layout(constant_id = 14) const uint kTeamSize = 8u;
+layout(constant_id = kSpecDirectLight) const uint kDirectLight = kDirectLightSampled;
+layout(constant_id = kSpecHasEmitters) const bool kHasEmitters = true;
 
-layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normalTexels;
-layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
-layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
-layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
-layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
 layout(binding = kBindingPixels, rgba32ui) uniform readonly uimageBuffer pixelTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotResult results[]; };
-layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
-
-#include "shaders/kernels/layout.glsl"
-#include "shaders/lib/camera.glsl"
-#include "shaders/lib/lights.glsl"
-#include "shaders/lib/polygon_light.glsl"
-#include "shaders/lib/sampler.glsl"
-#include "shaders/lib/slot_sums.glsl"
-#include "shaders/lib/surface.glsl"
-#include "shaders/lib/transport.glsl"
-
-uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
-uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
-uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
-uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
-
-LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
-LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
-LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
-
-const float kInfinity = 1e30;
 
 // Whether anything can be gathered after a scattering event. (Nothing in between means T without a second column.)
 const bool kPathsGoOn = kDirectLight != kDirectLightClosedForm || kInvisibleScatters;
@@ -307,7 +276,6 @@ void main() {
     uint teamBegin = team * dispatch.teamSlots;
     if (teamBegin >= dispatch.slotCount) return;
     uint teamSlots = min(dispatch.teamSlots, dispatch.slotCount - teamBegin);
-    const bool ordered = kTransmittance != kTransmittanceZero || kPlanes;
     uint progress = dispatch.firstTeam + team;
 
     uint taken = atomicAdd(teams[progress].taken, 1u);
@@ -326,7 +294,7 @@ void main() {
     while (taken < teamSlots) {
         // Until some lane has all samples of its slot.
         do {
-            traverse(ray, ordered, kLeaveTraversal, kLeaveNodes);
+            traverse(ray, kOrdered, kLeaveTraversal, kLeaveNodes);
             if (!traversalAlive(ray)) {
                 bool found = ray.triangle != kNoTriangle;
                 Triangle tri = fetchTriangle(found ? ray.triangle : 0u);

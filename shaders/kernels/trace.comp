@@ -6,14 +6,14 @@
 
 #include "shaders/shared/trace_layout.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kLeaveTraversal = 4u;
-layout(constant_id = 2) const uint kLeaveNodes = 3u;
-layout(constant_id = 3) const uint kMode = 0u;
+layout(local_size_x_id = kSpecWorkgroupSize) in;
+layout(constant_id = kSpecLeaveTraversal) const uint kLeaveTraversal = 4u;
+layout(constant_id = kSpecLeaveNodes) const uint kLeaveNodes = 3u;
+layout(constant_id = kSpecTraceMode) const uint kMode = 0u;
 #ifdef DUOLUX_RAY_QUERY
 const bool kCount = false;  // the driver does not tell
 #else
-layout(constant_id = 4) const bool kCount = false;
+layout(constant_id = kSpecCount) const bool kCount = false;
 #endif
 
 layout(binding = kBindingRays, rgba32ui) uniform readonly uimageBuffer rayTexels;

@@ -6,7 +6,7 @@
 
 #include "shaders/shared/bvh_layout.h"
 
-layout(constant_id = 19) const bool kPlanes = false;
+layout(constant_id = kSpecPlanes) const bool kPlanes = false;
 
 uvec4 fetchPlaneTexel(uint index);
 

@@ -7,13 +7,13 @@
 #include "shaders/lib/light_matrix.glsl"
 #include "shaders/lib/material.glsl"
 
-layout(constant_id = 3) const uint kTransmittance = 2u;
-layout(constant_id = 4) const bool kSecondColumn = true;
-layout(constant_id = 5) const bool kInvisibleScatters = true;
-layout(constant_id = 6) const bool kVisibleScatters = true;
-layout(constant_id = 7) const bool kInvisibleCrosses = true;
-layout(constant_id = 8) const bool kVisibleCrosses = true;
-layout(constant_id = 9) const bool kOneReflectance = false;
+layout(constant_id = kSpecTransmittance) const uint kTransmittance = 2u;
+layout(constant_id = kSpecSecondColumn) const bool kSecondColumn = true;
+layout(constant_id = kSpecInvisibleScatters) const bool kInvisibleScatters = true;
+layout(constant_id = kSpecVisibleScatters) const bool kVisibleScatters = true;
+layout(constant_id = kSpecInvisibleCrosses) const bool kInvisibleCrosses = true;
+layout(constant_id = kSpecVisibleCrosses) const bool kVisibleCrosses = true;
+layout(constant_id = kSpecOneReflectance) const bool kOneReflectance = false;
 
 LightMatrix sceneOpaque();
 LightMatrix sceneTransparent();

@@ -17,7 +17,7 @@
 uvec4 fetchNodeTexel(uint index);
 
 // Votes of a subgroup of 8 by shuffles, which lavapipe compiles to an instruction each, but ballots to a loop over lanes.
-layout(constant_id = 18) const bool kVoteByShuffle = false;
+layout(constant_id = kSpecVoteByShuffle) const bool kVoteByShuffle = false;
 
 struct Traversal {
     // The ray. Hits are looked for after (tMin, afterOrder) in the order of (distance, orderOfSurface).

@@ -19,7 +19,7 @@ s/\buint\[([0-9]+)\]/Array<\1>/g
 s/\buint (\w+)\[([0-9]+)\];/Array<\2> \1;/g
 
 # Constants of kernels become variables that tests may set.
-s/^layout\(constant_id = [0-9]+\) const (.*)/inline \1/
+s/^layout\(constant_id = [A-Za-z0-9]+\) const (.*)/inline \1/
 s/^DUOLUX_CONST/inline constexpr/
 s/^const /inline const /
 

@@ -1,0 +1,39 @@
+// What the kernels of both integrators know of a scene: its buffers, its parameters and how a lane fetches them.
+#include "shaders/shared/bvh_layout.h"
+#include "shaders/shared/path_layout.h"
+
+layout(local_size_x_id = kSpecWorkgroupSize) in;
+layout(constant_id = kSpecLeaveTraversal) const uint kLeaveTraversal = 4u;
+layout(constant_id = kSpecLeaveNodes) const uint kLeaveNodes = 3u;
+layout(constant_id = kSpecSmoothNormals) const bool kSmoothNormals = true;
+layout(constant_id = kSpecSampler) const uint kSampler = kSamplerSobol;
+layout(constant_id = kSpecTeamSize) const uint kTeamSize = 8u;
+
+layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normalTexels;
+layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
+layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
+layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
+layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
+layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
+
+#include "shaders/kernels/layout.glsl"
+#include "shaders/lib/camera.glsl"
+#include "shaders/lib/lights.glsl"
+#include "shaders/lib/sampler.glsl"
+#include "shaders/lib/surface.glsl"
+#include "shaders/lib/transport.glsl"
+
+uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
+uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
+uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
+uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
+
+LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
+LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
+LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
+
+// Length of a ray that nothing ends.
+const float kInfinity = 1e30;
+
+// Surfaces along a ray are met one by one, also where they coincide.
+const bool kOrdered = kTransmittance != kTransmittanceZero || kPlanes;
