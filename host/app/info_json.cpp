@@ -34,10 +34,16 @@ Json placeJson(const Scene& scene, const glm::vec3& place) {
 
 Json cameraOf(const Scene& scene) {
     const Camera& camera = scene.camera;
-    return {{"position", placeJson(scene, camera.position)},
-            {"target", placeJson(scene, camera.target)},
-            {"up", toJson(camera.up)},
-            {"vfov", number(camera.vfov)}};
+    Json json = {{"position", placeJson(scene, camera.position)},
+                 {"target", placeJson(scene, camera.target)},
+                 {"up", toJson(camera.up)}};
+    if (camera.type == CameraType::kOrthographic) {
+        json["type"] = nameOf(camera.type);
+        json["height"] = number(camera.height);
+    } else {
+        json["vfov"] = number(camera.vfov);
+    }
+    return json;
 }
 
 const char* nameOf(Sides sides) {

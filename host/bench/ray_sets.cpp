@@ -34,8 +34,8 @@ std::vector<TraceRay> primaryRays(const Camera& camera, std::uint32_t width, std
     std::vector<TraceRay> rays;
     for (const std::uint32_t pixel : pixelOrder(width, height)) {
         const glm::vec2 at = (glm::vec2(pixel % width, pixel / width) + 0.5f) / size * 2.0f - 1.0f;
-        const glm::vec3 direction = plane.forward + at.x * plane.right - at.y * plane.up;
-        rays.push_back({camera.position, 0.0f, glm::normalize(direction), kInfinity});
+        const CameraRay ray = cameraRay(camera, plane, {at.x, -at.y});
+        rays.push_back({ray.origin, 0.0f, ray.direction, kInfinity});
     }
     return rays;
 }

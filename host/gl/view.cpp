@@ -38,13 +38,19 @@ glm::mat4 projectionMatrix(const Scene& scene, glm::vec2 jitter, const std::arra
     nearest = std::max(nearest * 0.999f, farthest * 1e-4f);
 
     const float aspect = static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height);
-    const float halfHeight = std::tan(glm::radians(camera.vfov) / 2.0f) * nearest;
+    const bool parallel = camera.type == CameraType::kOrthographic;
+    const float halfHeight =
+        parallel ? 0.5f * camera.height : std::tan(glm::radians(camera.vfov) / 2.0f) * nearest;
     const float halfWidth = halfHeight * aspect;
     // A fragment is computed at the centre of its pixel: the image is moved by what the sample is off it.
     const glm::vec2 moved = (jitter - 0.5f) / glm::vec2(scene.render.width, scene.render.height) *
                             glm::vec2(window[2], window[3]);
     const auto x = [&](float fraction) { return (2.0f * (fraction + moved.x) - 1.0f) * halfWidth; };
     const auto y = [&](float fraction) { return (1.0f - 2.0f * (fraction + moved.y)) * halfHeight; };
+    if (parallel) {
+        return glm::ortho(x(window[0]), x(window[0] + window[2]), y(window[1] + window[3]), y(window[1]),
+                          nearest, farthest);
+    }
     return glm::frustum(x(window[0]), x(window[0] + window[2]), y(window[1] + window[3]), y(window[1]),
                         nearest, farthest);
 }

@@ -93,9 +93,8 @@ class PathTracer {
         const vec2 size(scene_.render.width, scene_.render.height);
         const float x = static_cast<float>(pixel % scene_.render.width) + random.uniform();
         const float y = static_cast<float>(pixel / scene_.render.width) + random.uniform();
-        vec3 origin = scene_.camera.position;
-        vec3 direction = glm::normalize(plane_.forward + plane_.right * (x / size.x * 2.0f - 1.0f) -
-                                        plane_.up * (y / size.y * 2.0f - 1.0f));
+        auto [origin, direction] =
+            cameraRay(scene_.camera, plane_, {x / size.x * 2.0f - 1.0f, 1.0f - y / size.y * 2.0f});
         vec3 radiance(0.0f);
         vec3 throughput(1.0f);
         float pdf = 0.0f;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene/image_plane.h"
+#include "host/gpu/device_camera.h"
 #include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
@@ -23,17 +23,10 @@ const Reflectance& commonReflectance(const Scene& scene) {
 constexpr float kUndisplayedWeight = 1.0f / 16.0f;
 
 shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene) {
-    const Camera& camera = scene.camera;
-    const ImagePlane plane = imagePlane(camera, scene.render.width, scene.render.height);
-
     shared::PathParams params{};
-    params.cameraPosition = camera.position;
-    params.width = scene.render.width;
-    params.cameraForward = plane.forward;
-    params.height = scene.render.height;
-    params.cameraRight = plane.right;
+    params.camera =
+        deviceCamera(scene.camera, scene.render.width, scene.render.height, boundsOf(scene.geometry));
     params.seed = scene.render.seed;
-    params.cameraUp = plane.up;
     params.bounces = scene.render.bounces;
     const Reflectance& reflectance = commonReflectance(scene);
     params.opaque = deviceMatrix(reflectance.opaque);
@@ -47,10 +40,6 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
     params.emitterRoot = deviceScene.emitterRoot;
     params.emitterLower = deviceScene.emitterBounds.lower;
     params.emitterUpper = deviceScene.emitterBounds.upper;
-    params.imageArea = plane.area;
-    const RayStart start = rayStart(camera, boundsOf(scene.geometry));
-    params.cameraStart = start.position;
-    params.cameraStartDepth = start.depth;
     return params;
 }
 
@@ -85,6 +74,7 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
             {shared::kSpecInvisibleCrosses, traits.invisibleCrosses},
             {shared::kSpecVisibleCrosses, traits.visibleCrosses},
             {shared::kSpecOneReflectance, traits.oneReflectance},
+            {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecPlanes, deviceScene.hasPlanes},
             {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent

@@ -3,18 +3,26 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "host/scene/scene.h"
+
 namespace duolux {
 
 /// What is said of a camera, in the coordinates of the scene's file; the rest is chosen. Vectors are finite,
-/// `up` is not 0, `vfov` is in (0, 180).
+/// `up` is not 0, `vfov` is in (0, 180), `height` > 0.
 struct CameraChoice {
     std::optional<glm::dvec3> position, target, up;
     std::optional<float> vfov;
+    std::optional<CameraType> type;
+    std::optional<float> height;  ///< of an orthographic image, in scene units
 
     /// With what `other` says in place of what this says.
     CameraChoice overriddenBy(const CameraChoice& other) const {
-        return {other.position ? other.position : position, other.target ? other.target : target,
-                other.up ? other.up : up, other.vfov ? other.vfov : vfov};
+        return {other.position ? other.position : position,
+                other.target ? other.target : target,
+                other.up ? other.up : up,
+                other.vfov ? other.vfov : vfov,
+                other.type ? other.type : type,
+                other.height ? other.height : height};
     }
     bool complete() const { return position && target; }
 

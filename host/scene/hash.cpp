@@ -94,7 +94,12 @@ std::string hashScene(const Scene& scene) {
     hasher.add(scene.camera.position);
     hasher.add(scene.camera.target);
     hasher.add(scene.camera.up);
-    hasher.add(scene.camera.vfov);
+    if (scene.camera.type == CameraType::kOrthographic) {
+        hasher.add(static_cast<std::uint64_t>(scene.camera.type));
+        hasher.add(scene.camera.height);
+    } else {
+        hasher.add(scene.camera.vfov);
+    }
     hasher.add(scene.display.x);
     hasher.add(scene.display.y);
     return fmt::format("{:016x}", hasher.result());

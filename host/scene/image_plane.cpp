@@ -5,13 +5,24 @@
 namespace duolux {
 
 // In double precision, so that each number is rounded once.
-ImagePlane imagePlane(const Camera& camera, std::uint32_t width, std::uint32_t height) {
+ImagePlane imagePlane(const Camera& camera, double aspect) {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.position));
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
-    const double half = std::tan(glm::radians(static_cast<double>(camera.vfov)) / 2.0);
-    const double aspect = static_cast<double>(width) / height;
+    const double half = camera.type == CameraType::kOrthographic
+                            ? static_cast<double>(camera.height) / 2.0
+                            : std::tan(glm::radians(static_cast<double>(camera.vfov)) / 2.0);
     return {glm::vec3(forward), glm::vec3(right * (half * aspect)),
             glm::vec3(glm::cross(right, forward) * half), static_cast<float>(4.0 * half * half * aspect)};
+}
+
+ImagePlane imagePlane(const Camera& camera, std::uint32_t width, std::uint32_t height) {
+    return imagePlane(camera, static_cast<double>(width) / height);
+}
+
+CameraRay cameraRay(const Camera& camera, const ImagePlane& plane, glm::vec2 point) {
+    const glm::vec3 across = point.x * plane.right + point.y * plane.up;
+    if (camera.type == CameraType::kOrthographic) return {camera.position + across, plane.forward};
+    return {camera.position, glm::normalize(plane.forward + across)};
 }
 
 RayStart rayStart(const Camera& camera, const Bounds& bounds) {

@@ -7,8 +7,8 @@
 
 namespace duolux {
 
-/// The image plane of a camera at distance 1: the point (x, y) of it, both from -1 to 1, y upwards, lies in
-/// the direction forward + x right + y up.
+/// The image plane of a camera: at distance 1, or through the position of an orthographic one. Its points
+/// (x, y), both from -1 to 1 with y upwards, lie at x right + y up from its middle.
 struct ImagePlane {
     glm::vec3 forward;  ///< unit
     glm::vec3 right;    ///< half the width
@@ -16,8 +16,18 @@ struct ImagePlane {
     float area;         ///< of all of it
 };
 
+/// Of a picture whose width is `aspect` times its height.
+ImagePlane imagePlane(const Camera& camera, double aspect);
 /// Of a picture of width x height square pixels.
 ImagePlane imagePlane(const Camera& camera, std::uint32_t width, std::uint32_t height);
+
+struct CameraRay {
+    glm::vec3 origin;
+    glm::vec3 direction;  ///< unit
+};
+
+/// Through a point of the image plane.
+CameraRay cameraRay(const Camera& camera, const ImagePlane& plane, glm::vec2 point);
 
 /// Where camera rays may begin: nothing of the scene is nearer than the plane at this depth.
 struct RayStart {

@@ -60,8 +60,12 @@ double sineBetween(const glm::vec3& a, const glm::vec3& b) {
 }
 
 CameraChoice readCamera(const JsonNode& node) {
-    node.expectKeys({"position", "target", "up", "vfov"});
+    node.expectKeys({"type", "position", "target", "up", "vfov", "height"});
     CameraChoice camera;
+    if (const auto type = node.find("type")) {
+        static const std::array<std::string, 2> kNames{"perspective", "orthographic"};
+        camera.type = type->choice(kNames) == 0 ? CameraType::kPerspective : CameraType::kOrthographic;
+    }
     if (const auto position = node.find("position")) camera.position = readPlace(*position);
     if (const auto target = node.find("target")) camera.target = readPlace(*target);
     if (const auto up = node.find("up")) camera.up = readDirection(*up);
@@ -69,6 +73,12 @@ CameraChoice readCamera(const JsonNode& node) {
         const char* const remedy = "expected the full vertical angle in degrees, between 0 and 180";
         camera.vfov = static_cast<float>(vfov->number(0.0, 180.0, remedy));
         if (*camera.vfov <= 0.0f || *camera.vfov >= 180.0f) vfov->failValue(remedy);
+    }
+    if (const auto height = node.find("height")) {
+        const char* const remedy = "expected the height of the image in scene units, above 0";
+        camera.height =
+            static_cast<float>(height->number(0.0, static_cast<double>(kLargestCoordinate), remedy));
+        if (!(*camera.height > 0.0f)) height->failValue(remedy);
     }
     if (const auto wrong = camera.contradiction()) node.fail(wrong->problem, wrong->remedy);
     return camera;

@@ -4,6 +4,10 @@
 
 namespace duolux {
 
+const char* nameOf(CameraType type) {
+    return type == CameraType::kOrthographic ? "orthographic" : "perspective";
+}
+
 const char* nameOf(Sampler sampler) {
     return sampler == Sampler::kIndependent ? "independent" : "sobol";
 }

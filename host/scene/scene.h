@@ -44,12 +44,19 @@ struct Geometry {
     static constexpr std::uint32_t kNoNormal = 0xffffffffu;
 };
 
-/// Pinhole camera. Image right is (target - position) x up.
+enum class CameraType : std::uint8_t {
+    kPerspective,  ///< a pinhole
+    kOrthographic  ///< parallel rays, which begin on the plane through the position
+};
+
+/// Image right is (target - position) x up.
 struct Camera {
     glm::vec3 position{0.0f, 0.0f, 1.0f};
     glm::vec3 target{0.0f};
     glm::vec3 up{0.0f, 1.0f, 0.0f};
-    float vfov = 40.0f;  ///< full vertical angle in degrees, in (0, 180)
+    float vfov = 40.0f;  ///< kPerspective: full vertical angle in degrees, in (0, 180)
+    CameraType type = CameraType::kPerspective;
+    float height = 1.0f;  ///< kOrthographic: of the image in scene units, > 0
 };
 
 enum class Sampler : std::uint8_t { kSobol, kIndependent };
@@ -60,6 +67,7 @@ enum class Integrator : std::uint8_t {
 };
 
 /// As in scene files and on the command line.
+const char* nameOf(CameraType type);
 const char* nameOf(Sampler sampler);
 const char* nameOf(Integrator integrator);
 

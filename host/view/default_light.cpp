@@ -70,8 +70,10 @@ std::optional<Place> openPlace(const Surface& surface, const Camera& camera, flo
 
 /// All corners are beyond one of the planes that bound the view.
 bool isOutOfView(const Place& place, const Camera& camera, float aspect) {
+    constexpr float kMargin = 1.1f;
     const ViewFrame frame(camera);
-    const float tangent = 1.1f * std::tan(0.5f * glm::radians(camera.vfov));
+    const ImagePlane plane = imagePlane(camera, static_cast<double>(aspect));
+    const float halfWidth = kMargin * glm::length(plane.right), halfHeight = kMargin * glm::length(plane.up);
     const auto& [origin, edge1, edge2] = place.rectangle;
     bool behind = true, above = true, below = true, left = true, right = true;
     for (const glm::vec3& corner : {origin, origin + edge1, origin + edge2, origin + edge1 + edge2}) {
@@ -79,10 +81,11 @@ bool isOutOfView(const Place& place, const Camera& camera, float aspect) {
         const float depth = glm::dot(offset, frame.forward);
         const float x = glm::dot(offset, frame.right), y = glm::dot(offset, frame.up);
         behind = behind && depth < 0.0f;
-        above = above && y > tangent * depth;
-        below = below && -y > tangent * depth;
-        right = right && x > tangent * aspect * depth;
-        left = left && -x > tangent * aspect * depth;
+        const float widening = camera.type == CameraType::kOrthographic ? 1.0f : depth;
+        above = above && y > halfHeight * widening;
+        below = below && -y > halfHeight * widening;
+        right = right && x > halfWidth * widening;
+        left = left && -x > halfWidth * widening;
     }
     return behind || above || below || left || right;
 }

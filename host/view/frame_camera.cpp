@@ -221,6 +221,20 @@ class Framer {
 
 }  // namespace
 
+namespace {
+
+/// An orthographic one shows as much as the perspective one at its target, unless its height is given.
+Camera asChosen(Camera camera, const CameraChoice& choice) {
+    camera.type = choice.type.value_or(CameraType::kPerspective);
+    if (camera.type == CameraType::kOrthographic) {
+        const float distance = glm::distance(camera.position, camera.target);
+        camera.height = choice.height.value_or(2.0f * distance * std::tan(0.5f * glm::radians(camera.vfov)));
+    }
+    return camera;
+}
+
+}  // namespace
+
 Camera completeCamera(const CameraChoice& choice) {
     const ViewAxes axes(choice.up.value_or(kUp));
     Camera camera;
@@ -229,13 +243,13 @@ Camera completeCamera(const CameraChoice& choice) {
     camera.up = choice.up ? glm::vec3(*choice.up)
                           : axes.upFor(glm::vec3(glm::normalize(*choice.target - *choice.position)));
     camera.vfov = choice.vfov.value_or(kDefaultVfov);
-    return camera;
+    return asChosen(camera, choice);
 }
 
 Camera frameCamera(const CameraChoice& choice, const Surface& surface, const ViewSamples& samples,
                    float aspect) {
     if (choice.complete()) return completeCamera(choice);
-    return Framer(choice, surface, samples, aspect).frame();
+    return asChosen(Framer(choice, surface, samples, aspect).frame(), choice);
 }
 
 }  // namespace duolux

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
+#include "host/scene/image_plane.h"
 #include "host/view/illumination.h"
 
 namespace duolux {
@@ -26,14 +26,12 @@ inline constexpr int kLooksAcross = 20;  ///< rays of lookThrough in each direct
 /// Calls visit(point, number from 1 on) with what a camera sees, by a few rays spread over its picture.
 template <typename Visit>
 void lookThrough(const Camera& camera, float aspect, const Surface& surface, const Visit& visit) {
-    const ViewFrame frame(camera);
-    const float tangent = std::tan(0.5f * glm::radians(camera.vfov));
-    const glm::vec3 eye = surface.toLocal(glm::dvec3(camera.position));
+    const ImagePlane plane = imagePlane(camera, static_cast<double>(aspect));
     for (int i = 0; i < kLooksAcross * kLooksAcross; ++i) {
         const float x = (static_cast<float>(i % kLooksAcross) + 0.5f) * 2.0f / kLooksAcross - 1.0f;
         const float y = (static_cast<float>(i / kLooksAcross) + 0.5f) * 2.0f / kLooksAcross - 1.0f;
-        const glm::vec3 direction =
-            glm::normalize(frame.forward + tangent * (aspect * x * frame.right + y * frame.up));
+        const auto [origin, direction] = cameraRay(camera, plane, {x, y});
+        const glm::vec3 eye = surface.toLocal(glm::dvec3(origin));
         if (const auto hit = surface.firstHit(eye, direction))
             visit(pointOf(surface, eye, direction, *hit), static_cast<std::uint32_t>(i + 1));
     }

@@ -95,12 +95,13 @@ void splat(inout LaneSums sums, Light light, Connection connection, uvec2 path) 
     sums.visible = filmAddSigned(sums.visible, channelMean(light.visible), inverseUnit);
 }
 
+vec3 directionToCamera(vec3 point) { return connectToCamera(params.camera, point).direction; }
+
 // Sets up a ray to the camera.
 void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
-    CameraConnection camera = connectToCamera(params, outgoing.point.position);
+    CameraConnection camera = connectToCamera(params.camera, outgoing.point.position);
     float cosine = max(dot(outgoing.point.geometricNormal, camera.direction), 0.0);
-    float factor = cosine * camera.importance / (camera.distance * camera.distance);
-    Light arriving = lightScale(outgoing.radiance, vec3(factor));
+    Light arriving = lightScale(outgoing.radiance, vec3(cosine * camera.importance));
     // Light that counts less than its brightness, by components that are not displayed, is connected less often.
     float brightness = maxComponent(max(arriving.invisible, arriving.visible));
     float worth = max(params.rowWeight.x, params.rowWeight.y) * brightness;
@@ -145,7 +146,7 @@ void emitPath(out LightPath path, out Vertex vertex, out Outgoing outgoing, uvec
     path.ended = !(path.emitted > 0.0) || params.bounces == 0u;
 
     // Whatever side the particle leaves from, the camera sees the one that faces it.
-    bool seenFront = dot(light.normal, params.cameraPosition - light.position) > 0.0;
+    bool seenFront = dot(light.normal, directionToCamera(light.position)) > 0.0;
     outgoing.point = pointOnLight(light, seenFront ? light.normal : -light.normal);
     outgoing.radiance = lightScale(materialEmission(material, seenFront), vec3(1.0 / material.lightPdfArea));
     outgoing.scatterings = 0u;
@@ -221,7 +222,7 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     vec3 wi = -path.direction;
     float adjoint = materialScatters(material, front) ? shadingAdjoint(point, wi) : 0.0;
     Light scattered = lightScale(lightApply(opaqueOf(materialIndex), path.flux), vec3(adjoint));
-    vec3 wo = normalize(params.cameraPosition - point.position);
+    vec3 wo = directionToCamera(point.position);
     vec3 f = bsdfEvaluate(material.bsdf, toFrame(point.shadingNormal, wo), toFrame(point.shadingNormal, wi));
     outgoing = Outgoing(point, lightScale(scattered, f), path.scatterings + 1u);
 

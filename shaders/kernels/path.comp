@@ -64,10 +64,11 @@ void gather(inout Gathered gathered, Light light, uint scatterings) {
 }
 
 Path cameraPath(uint pixel, vec2 u) {
-    vec2 position = vec2(float(int(pixel % params.width)), float(int(pixel / params.width))) + u;
+    uint width = params.camera.width;
+    vec2 position = vec2(float(int(pixel % width)), float(int(pixel / width))) + u;
     Path path;
     path.importance = lightIdentity();
-    CameraRay ray = cameraRay(params, position);
+    CameraRay ray = cameraRay(params.camera, position);
     path.origin = ray.origin;
     path.direction = ray.direction;
     path.t = 0.0;

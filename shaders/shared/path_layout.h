@@ -3,6 +3,7 @@
 #ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 
+#include "shaders/shared/camera_layout.h"
 #include "shaders/shared/types.h"
 
 DUOLUX_BEGIN
@@ -64,14 +65,9 @@ struct DeviceLightMatrix {
 };
 
 struct PathParams {
-    vec3 cameraPosition;
-    uint width;
-    vec3 cameraForward;  // unit
-    uint height;
-    vec3 cameraRight;  // half the width of the image plane at distance 1
+    DeviceCamera camera;
     uint seed;
-    vec3 cameraUp;  // half its height
-    uint bounces;   // largest number of scattering events on a path
+    uint bounces;  // largest number of scattering events on a path
     DeviceLightMatrix opaque;
     DeviceLightMatrix transparent;
     vec2 rowWeight;  // how much the components (invisible, visible) of a pixel count when work is
@@ -82,9 +78,6 @@ struct PathParams {
                         // triangles where the driver has the tree; 0: there is none
     vec3 emitterLower;  // their bounds, widened a little
     vec3 emitterUpper;
-    float imageArea;    // of the image plane at distance 1
-    vec3 cameraStart;   // where rays begin: the camera's position, or a point ahead of it before a distant scene
-    float cameraStartDepth;  // how far ahead
 };
 
 struct DispatchParams {
@@ -130,8 +123,8 @@ DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 
 #ifdef __cplusplus
 static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
-static_assert(offsetof(PathParams, opaque) == 64 && offsetof(PathParams, rowWeight) == 160);
-static_assert(offsetof(PathParams, emitterRoot) == 180 && sizeof(PathParams) == 228);
+static_assert(offsetof(PathParams, opaque) == 84 && offsetof(PathParams, rowWeight) == 180);
+static_assert(offsetof(PathParams, emitterRoot) == 200 && sizeof(PathParams) == 228);
 
 struct DeviceMaterial {
     vec3 diffuse;

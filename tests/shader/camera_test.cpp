@@ -5,15 +5,15 @@
 #include <random>
 #include <vector>
 
+#include "host/gpu/device_camera.h"
 #include "host/scene/image_plane.h"
-#include "shaders/shared/path_layout.h"
 #include "tests/reference/pinhole.h"
 #include "tests/shader/harness/census.h"
 #include "tests/shader/oracles.h"
 
 // Camera rays, and how light paths see the camera, against the reference's rays in double precision.
 
-DUOLUX_GLSL_TYPE(duolux::shared::PathParams, "PathParams", "");
+DUOLUX_GLSL_TYPE(duolux::shared::DeviceCamera, "DeviceCamera", "");
 
 namespace duolux::test {
 
@@ -37,36 +37,29 @@ using reference::Vec3;
 constexpr std::uint32_t kWidth = 37, kHeight = 23;
 const Camera kCamera{{1.5f, -2.0f, 0.5f}, {-3.0f, 1.0f, 2.0f}, {0.2f, 1.0f, -0.1f}, 71.0f};
 
-const ShaderLibrary& camera() {
+const ShaderLibrary& cameraLibrary() {
     static const ShaderLibrary library("shaders/lib/camera.glsl");
     return library;
 }
 
-shared::PathParams paramsOf(const Camera& camera, std::uint32_t width = kWidth,
-                            std::uint32_t height = kHeight) {
-    const ImagePlane plane = imagePlane(camera, width, height);
-    shared::PathParams params{};
-    params.width = width;
-    params.height = height;
-    params.cameraPosition = camera.position;
-    params.cameraForward = plane.forward;
-    params.cameraRight = plane.right;
-    params.cameraUp = plane.up;
-    params.imageArea = plane.area;
-    params.cameraStart = camera.position;
-    return params;
+/// Bounds that no camera here is far from.
+constexpr Bounds kNear{{-100.0f, -100.0f, -100.0f}, {100.0f, 100.0f, 100.0f}};
+
+shared::DeviceCamera recordOf(const Camera& camera, std::uint32_t width = kWidth,
+                              std::uint32_t height = kHeight, const Bounds& bounds = kNear) {
+    return deviceCamera(camera, width, height, bounds);
 }
 
-std::vector<glm::vec3> directionsThrough(const shared::PathParams& params,
+std::vector<glm::vec3> directionsThrough(const shared::DeviceCamera& camera,
                                          const std::vector<glm::vec2>& positions) {
-    return camera().evaluate<glm::vec3>("result = cameraRay(x0, x1).direction;", params, positions);
+    return cameraLibrary().evaluate<glm::vec3>("result = cameraRay(x0, x1).direction;", camera, positions);
 }
 
-std::vector<Seen> connect(const shared::PathParams& params, const std::vector<glm::vec3>& points) {
-    return camera().evaluate<Seen>(
+std::vector<Seen> connect(const shared::DeviceCamera& camera, const std::vector<glm::vec3>& points) {
+    return cameraLibrary().evaluate<Seen>(
         "CameraConnection c = connectToCamera(x0, x1);"
         "result = Seen(c.visible ? 1u : 0u, c.pixel, c.direction, c.distance, c.importance);",
-        params, points);
+        camera, points);
 }
 
 TEST(CameraDirection, IsThatOfTheReference) {
@@ -82,7 +75,7 @@ TEST(CameraDirection, IsThatOfTheReference) {
             std::uniform_real_distribution<float> uniform;
             while (positions.size() < 500)
                 positions.push_back(extent * glm::vec2(uniform(engine), uniform(engine)));
-            const auto directions = directionsThrough(paramsOf(view, size.x, size.y), positions);
+            const auto directions = directionsThrough(recordOf(view, size.x, size.y), positions);
             for (std::size_t i = 0; i < positions.size(); ++i) {
                 const Vec3 expected =
                     pinhole.ray(static_cast<double>(positions[i].x), static_cast<double>(positions[i].y))
@@ -107,16 +100,15 @@ TEST(CameraRay, FromFarAwayBeginsBeforeTheScene) {
         view.vfov = static_cast<float>(2.0 * glm::degrees(std::atan(0.7 / static_cast<double>(distance))));
         const RayStart start = rayStart(view, bounds);
         EXPECT_EQ(start.depth == 0.0f, distance < 10.0f);
-        shared::PathParams params = paramsOf(view);
-        params.cameraStart = start.position;
-        params.cameraStartDepth = start.depth;
+        const shared::DeviceCamera record = recordOf(view, kWidth, kHeight, bounds);
+        EXPECT_EQ(record.startDepth, start.depth);
         const reference::Pinhole pinhole(view, kWidth, kHeight);
         std::vector<glm::vec2> positions;
         for (int i = 0; i < 200; ++i)
             positions.emplace_back(0.5f + static_cast<float>(i % kWidth),
                                    0.5f + static_cast<float>(i % kHeight));
         const auto origins =
-            camera().evaluate<glm::vec3>("result = cameraRay(x0, x1).origin;", params, positions);
+            cameraLibrary().evaluate<glm::vec3>("result = cameraRay(x0, x1).origin;", record, positions);
         std::vector<glm::vec3> points;
         const glm::dvec3 forward = glm::normalize(glm::dvec3(view.target) - glm::dvec3(view.position));
         for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -128,7 +120,7 @@ TEST(CameraRay, FromFarAwayBeginsBeforeTheScene) {
             EXPECT_LT(along, depth - 0.5);
             points.emplace_back(ray.origin + depth * ray.direction);
         }
-        const std::vector<Seen> seen = connect(params, points);
+        const std::vector<Seen> seen = connect(record, points);
         for (std::size_t i = 0; i < positions.size(); ++i)
             EXPECT_EQ(seen[i].pixel, static_cast<std::uint32_t>(positions[i].y) * kWidth +
                                          static_cast<std::uint32_t>(positions[i].x));
@@ -149,7 +141,7 @@ TEST(CameraConnection, SeesAPointWhereTheCamerasRayGoes) {
         const reference::Ray ray = pinhole.ray(x, y);
         points.emplace_back(ray.origin + std::exp(8.0 * uniform(engine) - 4.0) * ray.direction);
     }
-    const std::vector<Seen> seen = connect(paramsOf(kCamera), points);
+    const std::vector<Seen> seen = connect(recordOf(kCamera), points);
     // The directions of the corners, for the area of the image plane at distance 1.
     const Vec3 forward = glm::normalize(Vec3(kCamera.target) - Vec3(kCamera.position));
     const auto onPlane = [&](double x, double y) {
@@ -170,8 +162,9 @@ TEST(CameraConnection, SeesAPointWhereTheCamerasRayGoes) {
         distances.compare(i, seen[i].distance, distance, 1e-5 * distance);
         directions.compare(i, glm::length(Vec3(seen[i].direction) - offset / distance), 0.0, 2e-5);
         const double cosine = -glm::dot(offset, forward) / distance;
-        importances.compare(i, static_cast<double>(seen[i].importance) * area * std::pow(cosine, 3), 1.0,
-                            1e-4);
+        importances.compare(
+            i, static_cast<double>(seen[i].importance) * area * std::pow(cosine, 3) * distance * distance,
+            1.0, 1e-4);
     }
 }
 
@@ -187,7 +180,7 @@ TEST(CameraConnection, SeesNothingBesideOrBehind) {
     for (const double x : {0.5, 18.0, 36.5}) {  // what a ray backwards meets
         points.emplace_back(pinhole.ray(x, 7).origin - 2.0 * pinhole.ray(x, 7).direction);
     }
-    const std::vector<Seen> seen = connect(paramsOf(kCamera), points);
+    const std::vector<Seen> seen = connect(recordOf(kCamera), points);
     for (std::size_t i = 0; i < points.size(); ++i)
         EXPECT_EQ(seen[i].visible, 0u) << i;
 }
@@ -197,17 +190,19 @@ TEST(CameraConnection, SeesNothingBesideOrBehind) {
 TEST(CameraConnection, ImportanceOfAPixelIntegratesToItsPart) {
     std::mt19937 engine(4);
     std::normal_distribution<float> normal;
+    constexpr double kRadius = 2.0;
     std::vector<glm::vec3> points(1 << 20);
     for (glm::vec3& p : points) {
         const glm::vec3 d(normal(engine), normal(engine), normal(engine));
-        p = kCamera.position + 2.0f * glm::normalize(d);
+        p = kCamera.position + static_cast<float>(kRadius) * glm::normalize(d);
     }
-    const std::vector<Seen> seen = connect(paramsOf(kCamera), points);
+    const std::vector<Seen> seen = connect(recordOf(kCamera), points);
     std::vector<double> sum(kWidth * kHeight), squares(kWidth * kHeight);
     double whole = 0.0;
     for (const Seen& s : seen) {
         const double value =
-            s.visible != 0 ? static_cast<double>(s.importance) * 4.0 * std::numbers::pi : 0.0;
+            s.visible != 0 ? static_cast<double>(s.importance) * kRadius * kRadius * 4.0 * std::numbers::pi
+                           : 0.0;
         if (value == 0.0) continue;
         sum[s.pixel] += value;
         squares[s.pixel] += value * value;
@@ -224,26 +219,16 @@ TEST(CameraConnection, ImportanceOfAPixelIntegratesToItsPart) {
     EXPECT_EQ(beyond, 0);  // of 851 pixels, 0.006 expected
 }
 
-/// The camera's part of the parameters.
-template <typename Params>
-Params mirrored(const shared::PathParams& p) {
-    Params out{};
-    out.cameraPosition = p.cameraPosition;
-    out.cameraForward = p.cameraForward;
-    out.cameraRight = p.cameraRight;
-    out.cameraUp = p.cameraUp;
-    out.width = p.width;
-    out.height = p.height;
-    out.imageArea = p.imageArea;
-    out.cameraStart = p.cameraStart;
-    out.cameraStartDepth = p.cameraStartDepth;
-    return out;
+template <typename Mirrored>
+Mirrored mirrored(const shared::DeviceCamera& camera) {
+    return {camera.position, camera.width, camera.forward,    camera.height, camera.right,
+            camera.area,     camera.up,    camera.startDepth, camera.start};
 }
 
 TEST(CameraOracles, RaysAndConnections) {
-    const shared::PathParams params = paramsOf(kCamera);
-    const auto single = mirrored<mirror::single::PathParams>(params);
-    const auto twice = mirrored<mirror::twice::PathParams>(params);
+    const shared::DeviceCamera record = recordOf(kCamera);
+    const auto single = mirrored<mirror::single::DeviceCamera>(record);
+    const auto twice = mirrored<mirror::twice::DeviceCamera>(record);
     std::mt19937 engine(6);
     std::uniform_real_distribution<float> uniform;
     std::vector<glm::vec2> positions;
@@ -259,10 +244,10 @@ TEST(CameraOracles, RaysAndConnections) {
         points.emplace_back(Vec3(kCamera.position) + distance * pinhole.ray(x, y).direction);
     }
     EXPECT_WITHIN_ORACLES(
-        "direction", directionsThrough(params, positions), Budget{2, 3e-7},
+        "direction", directionsThrough(record, positions), Budget{2, 3e-7},
         [&](const auto& p) { return mirror::single::cameraRay(single, p).direction; },
         [&](const auto& p) { return mirror::twice::cameraRay(twice, p).direction; }, positions);
-    const std::vector<Seen> seen = connect(params, points);
+    const std::vector<Seen> seen = connect(record, points);
     std::vector<glm::uvec2> pixels;
     std::vector<glm::vec4> rest;
     std::vector<float> importance;

@@ -2,100 +2,100 @@
 #include "shaders/lib/camera.glsl"
 
 // Somewhere, in any position; a focal length and a shape of its own. Right, up and backwards are right-handed.
-PathParams randomCamera() {
-    PathParams params;
-    params.cameraPosition = randomVec3(-2.0, 2.0);
-    params.cameraForward = randomDirection();
-    vec3 other = abs(params.cameraForward.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    vec3 right = normalize(cross(params.cameraForward, normalize(other + 0.5 * randomDirection())));
-    params.width = 1u + randomUint() % 300u;
-    params.height = 1u + randomUint() % 300u;
+DeviceCamera randomCamera() {
+    DeviceCamera camera;
+    camera.position = randomVec3(-2.0, 2.0);
+    camera.forward = randomDirection();
+    vec3 other = abs(camera.forward.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 right = normalize(cross(camera.forward, normalize(other + 0.5 * randomDirection())));
+    camera.width = 1u + randomUint() % 300u;
+    camera.height = 1u + randomUint() % 300u;
     float halfHeight = randomScale(-2.0, 1.0);
-    float aspect = float(params.width) / float(params.height);
-    params.cameraRight = right * (halfHeight * aspect);
-    params.cameraUp = cross(right, params.cameraForward) * halfHeight;
-    params.imageArea = 4.0 * halfHeight * halfHeight * aspect;
+    float aspect = float(camera.width) / float(camera.height);
+    camera.right = right * (halfHeight * aspect);
+    camera.up = cross(right, camera.forward) * halfHeight;
+    camera.area = 4.0 * halfHeight * halfHeight * aspect;
     // Rays begin at the camera, or ahead of it.
-    params.cameraStartDepth = testIndex() % 2u == 0u ? 0.0 : 0.05;
-    params.cameraStart = params.cameraPosition + params.cameraForward * params.cameraStartDepth;
-    return params;
+    camera.startDepth = testIndex() % 2u == 0u ? 0.0 : 0.05;
+    camera.start = camera.position + camera.forward * camera.startDepth;
+    return camera;
 }
 
-vec3 cameraDirection(PathParams params, vec2 position) { return cameraRay(params, position).direction; }
+vec3 cameraDirection(DeviceCamera camera, vec2 position) { return cameraRay(camera, position).direction; }
 
-vec2 imageSize(PathParams params) { return vec2(params.width, params.height); }
+vec2 imageSize(DeviceCamera camera) { return vec2(camera.width, camera.height); }
 
 // Rows count from the top: at the corners the ray's slopes are those of the edges of the image plane.
 TEST(RaysThroughTheCornersSpanTheImagePlane) {
-    PathParams params = randomCamera();
+    DeviceCamera camera = randomCamera();
     vec2 corner = vec2(testIndex() & 1u, (testIndex() >> 1u) & 1u);
-    vec3 d = cameraDirection(params, corner * imageSize(params));
-    vec3 onPlane = d / dot(d, params.cameraForward);
-    vec3 expected = params.cameraForward + (2.0 * corner.x - 1.0) * params.cameraRight +
-                    (1.0 - 2.0 * corner.y) * params.cameraUp;
+    vec3 d = cameraDirection(camera, corner * imageSize(camera));
+    vec3 onPlane = d / dot(d, camera.forward);
+    vec3 expected = camera.forward + (2.0 * corner.x - 1.0) * camera.right +
+                    (1.0 - 2.0 * corner.y) * camera.up;
     EXPECT_NEAR(onPlane, expected, 4e-6 * dot(expected, expected));
 }
 
 TEST(RayThroughTheCentreGoesForward) {
-    PathParams params = randomCamera();
-    EXPECT_NEAR(cameraDirection(params, 0.5 * imageSize(params)), params.cameraForward, 4e-7);
+    DeviceCamera camera = randomCamera();
+    EXPECT_NEAR(cameraDirection(camera, 0.5 * imageSize(camera)), camera.forward, 4e-7);
 }
 
 TEST(RaysBeginOnTheirWayFromTheCamera) {
-    PathParams params = randomCamera();
-    CameraRay ray = cameraRay(params, randomVec2() * imageSize(params));
-    float depth = params.cameraStartDepth;
-    EXPECT_NEAR(ray.origin, params.cameraPosition + ray.direction * (depth / dot(ray.direction, params.cameraForward)), 1e-5);
+    DeviceCamera camera = randomCamera();
+    CameraRay ray = cameraRay(camera, randomVec2() * imageSize(camera));
+    float depth = camera.startDepth;
+    EXPECT_NEAR(ray.origin, camera.position + ray.direction * (depth / dot(ray.direction, camera.forward)), 1e-5);
 }
 
 TEST(RaysAreUnit) {
-    PathParams params = randomCamera();
-    EXPECT_NEAR(length(cameraDirection(params, randomVec2() * imageSize(params))), 1.0, 3e-7);
+    DeviceCamera camera = randomCamera();
+    EXPECT_NEAR(length(cameraDirection(camera, randomVec2() * imageSize(camera))), 1.0, 3e-7);
 }
 
 // A point on the ray through a pixel is seen in that pixel. Not within a hundredth of its edge, for single precision
 // cannot tell on which side of it a point is.
 TEST(PointOnARayIsSeenWhereTheRayCameFrom) {
-    PathParams params = randomCamera();
-    uvec2 cell = uvec2(randomUint() % params.width, randomUint() % params.height);
-    vec3 direction = cameraDirection(params, vec2(cell) + mix(vec2(0.01), vec2(0.99), randomVec2()));
+    DeviceCamera camera = randomCamera();
+    uvec2 cell = uvec2(randomUint() % camera.width, randomUint() % camera.height);
+    vec3 direction = cameraDirection(camera, vec2(cell) + mix(vec2(0.01), vec2(0.99), randomVec2()));
     float distance = randomScale(-2.0, 6.0);
-    CameraConnection seen = connectToCamera(params, params.cameraPosition + direction * distance);
-    float cosine = dot(direction, params.cameraForward);
-    EXPECT_EQ(uvec2(seen.visible, seen.pixel), uvec2(1u, cell.y * params.width + cell.x));
+    CameraConnection seen = connectToCamera(camera, camera.position + direction * distance);
+    float cosine = dot(direction, camera.forward);
+    EXPECT_EQ(uvec2(seen.visible, seen.pixel), uvec2(1u, cell.y * camera.width + cell.x));
     EXPECT_NEAR(seen.direction, -direction, 4e-6);
     EXPECT_NEAR(seen.distance / distance, 1.0, 4e-6);
-    EXPECT_NEAR(seen.importance * params.imageArea * cosine * cosine * cosine, 1.0, 4e-5);
+    EXPECT_NEAR(seen.importance * camera.area * cosine * cosine * cosine * distance * distance, 1.0, 4e-5);
 }
 
 // Beyond each of the four edges, and behind: the same points mirrored at the camera.
 TEST(NothingIsSeenBesideTheImageOrBehind) {
-    PathParams params = randomCamera();
+    DeviceCamera camera = randomCamera();
     vec2 inside = randomVec2();
     float beyond = randomScale(-6.0, 6.0);
     vec2 beside[4] = vec2[4](vec2(-beyond, inside.y), vec2(1.0 + beyond, inside.y), vec2(inside.x, -beyond),
                              vec2(inside.x, 1.0 + beyond));
     bool behind = testIndex() % 5u == 4u;
-    vec2 position = (behind ? inside : beside[testIndex() % 5u % 4u]) * imageSize(params);
-    vec3 direction = cameraDirection(params, position) * (behind ? -1.0 : 1.0);
-    CameraConnection seen = connectToCamera(params, params.cameraPosition + direction * randomScale(-2.0, 6.0));
+    vec2 position = (behind ? inside : beside[testIndex() % 5u % 4u]) * imageSize(camera);
+    vec3 direction = cameraDirection(camera, position) * (behind ? -1.0 : 1.0);
+    CameraConnection seen = connectToCamera(camera, camera.position + direction * randomScale(-2.0, 6.0));
     EXPECT_FALSE(seen.visible);
 }
 
 // A camera at the origin that looks along -z, four by two pixels, without rounding: edges belong to the image at the
 // left and the top, and to nothing at the right and the bottom.
-PathParams plainCamera() {
-    PathParams params;
-    params.cameraPosition = vec3(0.0);
-    params.cameraForward = vec3(0.0, 0.0, -1.0);
-    params.cameraRight = vec3(2.0, 0.0, 0.0);
-    params.cameraUp = vec3(0.0, 1.0, 0.0);
-    params.width = 4u;
-    params.height = 2u;
-    params.imageArea = 8.0;
-    params.cameraStart = vec3(0.0);
-    params.cameraStartDepth = 0.0;
-    return params;
+DeviceCamera plainCamera() {
+    DeviceCamera camera;
+    camera.position = vec3(0.0);
+    camera.forward = vec3(0.0, 0.0, -1.0);
+    camera.right = vec3(2.0, 0.0, 0.0);
+    camera.up = vec3(0.0, 1.0, 0.0);
+    camera.width = 4u;
+    camera.height = 2u;
+    camera.area = 8.0;
+    camera.start = vec3(0.0);
+    camera.startDepth = 0.0;
+    return camera;
 }
 
 TEST_N(EdgesOfPixelsByHand, 10) {
@@ -110,9 +110,54 @@ TEST_N(EdgesOfPixelsByHand, 10) {
 
 TEST_N(ImportanceByHand, 1) {
     CameraConnection ahead = connectToCamera(plainCamera(), vec3(0, 0, -5));
-    EXPECT_EQ(vec2(ahead.importance, ahead.distance), vec2(0.125, 5.0));
+    EXPECT_EQ(ahead.distance, 5.0);
+    EXPECT_NEAR(ahead.importance * 25.0, 0.125, 1e-8);
     EXPECT_EQ(ahead.direction, vec3(0, 0, 1));
     // At 60 degrees cos^3 is an eighth.
     CameraConnection aside = connectToCamera(plainCamera(), vec3(sqrt(3.0), 0, -1));
-    EXPECT_NEAR(aside.importance, 1.0, 1e-6);
+    EXPECT_NEAR(aside.importance * 4.0, 1.0, 1e-6);
+}
+
+TEST(OrthographicRaysAreParallelAndSpanTheImagePlane) {
+    DeviceCamera camera = randomCamera();
+    vec2 position = randomVec2();
+    CameraRay ray = orthographicRay(camera, position * imageSize(camera));
+    EXPECT_EQ(ray.direction, camera.forward);
+    vec3 expected = camera.start + (2.0 * position.x - 1.0) * camera.right + (1.0 - 2.0 * position.y) * camera.up;
+    EXPECT_NEAR(ray.origin, expected, 2e-6 * (4.0 + length(camera.right) + length(camera.up)));
+}
+
+TEST(PointOnAnOrthographicRayIsSeenWhereTheRayCameFrom) {
+    DeviceCamera camera = randomCamera();
+    uvec2 cell = uvec2(randomUint() % camera.width, randomUint() % camera.height);
+    CameraRay ray = orthographicRay(camera, vec2(cell) + mix(vec2(0.05), vec2(0.95), randomVec2()));
+    float distance = randomScale(-2.0, 2.0);
+    CameraConnection seen = connectToOrthographic(camera, ray.origin + ray.direction * distance);
+    EXPECT_EQ(uvec2(seen.visible, seen.pixel), uvec2(1u, cell.y * camera.width + cell.x));
+    EXPECT_EQ(seen.direction, -camera.forward);
+    EXPECT_NEAR(seen.distance, distance + camera.startDepth, 2e-6 * (4.0 + length(camera.right) + length(camera.up)));
+    // However far away.
+    EXPECT_EQ(seen.importance, 1.0 / camera.area);
+}
+
+TEST(NothingIsSeenBesideOrBehindAnOrthographicImage) {
+    DeviceCamera camera = randomCamera();
+    vec2 inside = randomVec2();
+    float beyond = randomScale(-4.0, 6.0);
+    vec2 beside[4] = vec2[4](vec2(-beyond, inside.y), vec2(1.0 + beyond, inside.y), vec2(inside.x, -beyond),
+                             vec2(inside.x, 1.0 + beyond));
+    bool behind = testIndex() % 5u == 4u;
+    CameraRay ray = orthographicRay(camera, (behind ? inside : beside[testIndex() % 5u % 4u]) * imageSize(camera));
+    float distance = randomScale(-2.0, 6.0) * (behind ? -1.0 : 1.0) - (behind ? camera.startDepth : 0.0);
+    EXPECT_FALSE(connectToOrthographic(camera, ray.origin + ray.direction * distance).visible);
+}
+
+TEST_N(OrthographicByHand, 4) {
+    // Four by two pixels of an image four units wide and two high; cameraRay goes by the kind.
+    vec3 point[4] = vec3[4](vec3(-1.5, 0.5, -7), vec3(0.5, -0.5, -1), vec3(2.5, 0, -1), vec3(0, 0, 1));
+    bool visible[4] = bool[4](true, true, false, false);
+    uint pixel[4] = uint[4](0u, 6u, 0u, 0u);
+    CameraConnection seen = connectToOrthographic(plainCamera(), point[testIndex()]);
+    EXPECT_EQ(uvec2(seen.visible, seen.pixel), uvec2(visible[testIndex()], pixel[testIndex()]));
+    EXPECT_EQ(seen.importance, 0.125);
 }

@@ -41,6 +41,17 @@ class WordList {
         for (std::size_t i = 0; i < N; ++i)
             (*this)(name + "[" + std::to_string(i) + "]", field[i]);
     }
+    void operator()(const std::string& name, const shared::DeviceCamera& c) {
+        (*this)(name + ".position", c.position);
+        (*this)(name + ".width", c.width);
+        (*this)(name + ".forward", c.forward);
+        (*this)(name + ".height", c.height);
+        (*this)(name + ".right", c.right);
+        (*this)(name + ".area", c.area);
+        (*this)(name + ".up", c.up);
+        (*this)(name + ".startDepth", c.startDepth);
+        (*this)(name + ".start", c.start);
+    }
     void operator()(const std::string& name, const shared::DeviceLightMatrix& m) {
         (*this)(name + ".m00", m.m00);
         (*this)(name + ".m01", m.m01);
@@ -61,13 +72,8 @@ class WordList {
 
 #define DUOLUX_FIELD(field) list(#field, s.field)
 inline void listFields(const shared::PathParams& s, WordList& list) {
-    DUOLUX_FIELD(cameraPosition);
-    DUOLUX_FIELD(width);
-    DUOLUX_FIELD(cameraForward);
-    DUOLUX_FIELD(height);
-    DUOLUX_FIELD(cameraRight);
+    DUOLUX_FIELD(camera);
     DUOLUX_FIELD(seed);
-    DUOLUX_FIELD(cameraUp);
     DUOLUX_FIELD(bounces);
     DUOLUX_FIELD(opaque);
     DUOLUX_FIELD(transparent);
@@ -77,9 +83,6 @@ inline void listFields(const shared::PathParams& s, WordList& list) {
     DUOLUX_FIELD(emitterRoot);
     DUOLUX_FIELD(emitterLower);
     DUOLUX_FIELD(emitterUpper);
-    DUOLUX_FIELD(imageArea);
-    DUOLUX_FIELD(cameraStart);
-    DUOLUX_FIELD(cameraStartDepth);
 }
 inline void listFields(const shared::DeviceLightMatrix& s, WordList& list) {
     DUOLUX_FIELD(m00);

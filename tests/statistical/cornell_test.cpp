@@ -48,6 +48,17 @@ Scene tiltedView() {
     return scene;
 }
 
+/// By parallel rays, from above and beside, which meet the box from the outside, too.
+Scene orthographicView() {
+    Scene scene = boxOf(preset("global"));
+    scene.camera = {{400, 500, -300}, {250, 250, 250}, {0.2f, 1, 0}};
+    scene.camera.type = CameraType::kOrthographic;
+    scene.camera.height = 700.0f;
+    scene.render.width = 40;
+    scene.render.height = 28;
+    return scene;
+}
+
 /// Visible light passes too, turned from invisible: every surface is seen through, and scatters.
 Scene seeThrough() {
     return boxOf({matrix(0.5f, 0, 0.75f, 0), matrix(1, 0, 0.5f, 0)});
@@ -65,7 +76,8 @@ std::vector<CornellCase> cornellCases() {
             {"CornellLampsLocal", lamps("local"), 3},
             {"CornellLampsGlobal", lamps("global"), 3},
             {"CornellLampsShadowless", lamps("shadowless"), 3},
-            {"CornellMixed", mixedCornellBox(), 4}};
+            {"CornellMixed", mixedCornellBox(), 4},
+            {"CornellOrthographic", orthographicView(), 4}};
 }
 
 /// For messages of the test framework.

@@ -29,22 +29,22 @@ struct Expected {
 };
 
 constexpr Expected kExpected[] = {
-    {"cornell", "local", 0x0eb83f64e9b4fe98, 0x4902331f1fe0d85f},
-    {"cornell", "global", 0xf00281b2d1e955ce, 0xf30c5079d4d31e65},
-    {"cornell", "shadowless", 0x9025f802a1a2bb78, 0x61354033bf3f67be},
-    {"cornell", "one-bounce", 0x5459c41beaeeae53, 0xb9799cb32ac4e13a},
-    {"spot", "local", 0x9a9443cbc9accd12, 0x9fead383a0d13433},
-    {"spot", "global", 0x700b41bfdd59c4ff, 0x6976e2b18d0235ab},
-    {"spot", "shadowless", 0x75676fd0c50df808, 0x01c343c97ba7d846},
-    {"spot", "one-bounce", 0xb1904a30e6276902, 0xfc16b96d728b48ee},
-    {"uplight", "local", 0x5e4d9e26cfc36629, 0x0e3dbb534c6c35fe},
-    {"uplight", "global", 0xca833c46d8ccfa52, 0x9abda7cf2243c94d},
-    {"uplight", "shadowless", 0xbba938013849fb17, 0x1877401133ce03dd},
-    {"uplight", "one-bounce", 0x30a055a029cdab66, 0x2518271df6c255a0},
-    {"two-spheres", "local", 0x0a94d2bba1704f33, 0xbfc619130a1e04a9},
-    {"two-spheres", "global", 0x32e34d68daa1b7ff, 0x160207ed59744f79},
-    {"two-spheres", "shadowless", 0xa4954b41562b270d, 0x0620b6cd89ac8ccb},
-    {"two-spheres", "one-bounce", 0xda066579f245f7c0, 0xf59c048d3b3cddad},
+    {"cornell", "local", 0x0eb83f64e9b4fe98, 0xa91b609c53284df9},
+    {"cornell", "global", 0xf00281b2d1e955ce, 0x07a8f2914ed395a9},
+    {"cornell", "shadowless", 0x9025f802a1a2bb78, 0x8b8e5380fa97c3dc},
+    {"cornell", "one-bounce", 0x5459c41beaeeae53, 0x9d200afc922acf00},
+    {"spot", "local", 0x9a9443cbc9accd12, 0xa682733ef4d36fee},
+    {"spot", "global", 0x700b41bfdd59c4ff, 0x0b859ae1a594bb3d},
+    {"spot", "shadowless", 0x75676fd0c50df808, 0xb792280ed476e65c},
+    {"spot", "one-bounce", 0xb1904a30e6276902, 0x4c96137eadc138b6},
+    {"uplight", "local", 0x5e4d9e26cfc36629, 0x573ad7224c3d5cae},
+    {"uplight", "global", 0xca833c46d8ccfa52, 0x7b8567a69606fa68},
+    {"uplight", "shadowless", 0xbba938013849fb17, 0x821a87e51f1f1f41},
+    {"uplight", "one-bounce", 0x30a055a029cdab66, 0x3218e47495a581cd},
+    {"two-spheres", "local", 0x0a94d2bba1704f33, 0x0fc080def2179c1b},
+    {"two-spheres", "global", 0x32e34d68daa1b7ff, 0x1eb618ddd447debb},
+    {"two-spheres", "shadowless", 0xa4954b41562b270d, 0x2fca06e8ff782546},
+    {"two-spheres", "one-bounce", 0xda066579f245f7c0, 0xc00f81ea971e37f3},
 };
 
 void PrintTo(const Expected& expected, std::ostream* out) {

@@ -150,6 +150,10 @@ std::vector<PairCase> pairCases() {
     cases.push_back({"LeaningFloor", leaningFloor()});
     // Seen through, a sphere would scatter on its inside, too.
     cases.push_back({"SmoothSphereOneSided", smoothSphere(fullReflectance(), Sides::kFront)});
+    Scene parallel = leaningFloor();
+    parallel.camera.type = CameraType::kOrthographic;
+    parallel.camera.height = 3.0f;
+    cases.push_back({"Orthographic", parallel});
     return cases;
 }
 

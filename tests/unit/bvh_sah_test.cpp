@@ -10,8 +10,8 @@
 #include "host/bvh/binary_bvh.h"
 #include "host/bvh/collapse.h"
 #include "host/bvh/pairs.h"
-#include "host/view/load.h"
 #include "host/scene/two_spheres.h"
+#include "host/view/load.h"
 #include "shaders/shared/bvh_layout.h"
 
 namespace duolux {

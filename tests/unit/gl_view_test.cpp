@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "host/gl/vertices.h"
@@ -33,8 +34,15 @@ glm::vec2 drawnAt(const Scene& s, glm::vec3 point, glm::vec2 jitter, const std::
             (1.0f - clip.y / clip.w) / 2.0f * static_cast<float>(s.render.height)};
 }
 
-TEST(GlView, TheCentreOfAPixelShowsWhatTheRenderersCameraSeesAtTheJitter) {
-    const Scene s = scene();
+class GlView : public testing::TestWithParam<CameraType> {};
+INSTANTIATE_TEST_SUITE_P(Cameras, GlView,
+                         testing::Values(CameraType::kPerspective, CameraType::kOrthographic),
+                         [](const auto& test) { return std::string(nameOf(test.param)); });
+
+TEST_P(GlView, TheCentreOfAPixelShowsWhatTheRenderersCameraSeesAtTheJitter) {
+    Scene s = scene();
+    s.camera.type = GetParam();
+    s.camera.height = 7.0f;
     const reference::Pinhole pinhole(s.camera, s.render.width, s.render.height);
     for (const glm::vec2 jitter : {glm::vec2(0.5f, 0.5f), {0.1f, 0.8f}, {0.99f, 0.0f}}) {
         for (const glm::vec2 pixel : {glm::vec2(0, 0), {30, 20}, {59, 39}, {12, 33}}) {
@@ -48,8 +56,10 @@ TEST(GlView, TheCentreOfAPixelShowsWhatTheRenderersCameraSeesAtTheJitter) {
     }
 }
 
-TEST(GlView, AWindowMagnifiesItsPart) {
-    const Scene s = scene();
+TEST_P(GlView, AWindowMagnifiesItsPart) {
+    Scene s = scene();
+    s.camera.type = GetParam();
+    s.camera.height = 7.0f;
     const reference::Pinhole pinhole(s.camera, s.render.width, s.render.height);
     const reference::Ray ray = pinhole.ray(30.0, 10.0);
     // The window's left top corner is at (15, 5) of 60 x 40 pixels; it is half as wide and high as the image.
@@ -59,7 +69,7 @@ TEST(GlView, AWindowMagnifiesItsPart) {
     EXPECT_NEAR(at.y, 10.0f, 1e-3f);
 }
 
-TEST(GlView, JittersMeetEdgesOfAnyDirectionAtDifferentPlaces) {
+TEST(GlJitter, JittersMeetEdgesOfAnyDirectionAtDifferentPlaces) {
     constexpr std::uint32_t kCount = 64;
     for (const glm::vec2 across : {glm::vec2(1, 0), {0, 1}, {1, 1}, {1, -1}, {1, -2}, {2, 1}, {3, -1}}) {
         std::vector<float> places;

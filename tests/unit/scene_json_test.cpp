@@ -188,6 +188,12 @@ TEST_F(JsonTest, CameraIsChecked) {
                 HasSubstr("camera: position and target are the same"));
     EXPECT_THAT(error(at + R"(, "vfov": 180)"),
                 HasSubstr("camera.vfov: is 180; expected the full vertical angle"));
+    EXPECT_THAT(error(at + R"(, "type": "fisheye")"), HasSubstr("camera.type: is \"fisheye\""));
+    EXPECT_THAT(error(at + R"(, "height": 2)"), HasSubstr("a perspective camera has no height"));
+    EXPECT_THAT(error(at + R"(, "type": "orthographic", "height": 0)"),
+                HasSubstr("camera.height: is 0; expected the height of the image"));
+    EXPECT_THAT(error(at + R"(, "type": "orthographic", "vfov": 30)"),
+                HasSubstr("camera: an orthographic camera has no angle of view; expected \"height\""));
     EXPECT_THAT(error(at + R"(, "vfov": 0)"), HasSubstr("camera.vfov: is 0"));
     EXPECT_THAT(error(at + R"(, "vfov": "wide")"), HasSubstr("camera.vfov: is \"wide\""));
     EXPECT_THAT(error(R"("position": [1, 1], "target": [0, 0, 0])"),

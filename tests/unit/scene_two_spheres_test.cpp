@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "host/scene/icosphere.h"
-#include "host/view/load.h"
 #include "host/scene/two_spheres.h"
+#include "host/view/load.h"
 #include "tests/unit/scene_files.h"
 
 namespace duolux::test {

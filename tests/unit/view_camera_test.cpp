@@ -202,6 +202,24 @@ TEST_F(ViewCameraFiles, AnyPartOfAJsonCameraMayBeMissing) {
     EXPECT_EQ(mixed.vfov, 50.0f);
 }
 
+TEST_F(ViewCameraFiles, AnOrthographicCameraShowsAsMuchAtItsTarget) {
+    write("mesh.obj", kTriangleObj);
+    const auto cameraOf = [&](const std::string& keys) {
+        return loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "camera": {)" + keys + "}}")
+            .camera;
+    };
+    const std::string view = R"("position": [0, 1, 7], "target": [0, 1, 0], "type": "orthographic")";
+    const Camera given = cameraOf(view + R"(, "height": 3)");
+    EXPECT_EQ(given.type, CameraType::kOrthographic);
+    EXPECT_EQ(given.height, 3.0f);
+    EXPECT_NEAR(cameraOf(view).height, 14.0f * std::tan(glm::radians(20.0f)), 1e-5f);
+    const Camera automatic = cameraOf(R"("type": "orthographic")");
+    EXPECT_EQ(automatic.type, CameraType::kOrthographic);
+    EXPECT_GT(automatic.height, 0.9f) << "the triangle, whose sides are 1, fills it";
+    EXPECT_LT(automatic.height, 2.0f);
+    EXPECT_EQ(cameraOf("").type, CameraType::kPerspective);
+}
+
 TEST_F(ViewCameraFiles, ThePictureThatTheCallerWantsIsFilled) {
     write("mesh.obj", "v 0 0 0\nv 9 0 0\nv 9 1 0\nv 0 1 0\nf 1 2 3 4\n");
     const float square = glm::length(loadScene(folder_ / "mesh.obj").camera.position);

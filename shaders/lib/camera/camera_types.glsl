@@ -1,0 +1,41 @@
+// What a camera answers: the contract of the files in this folder.
+#ifndef DUOLUX_LIB_CAMERA_CAMERA_TYPES_GLSL
+#define DUOLUX_LIB_CAMERA_CAMERA_TYPES_GLSL
+
+#include "shaders/shared/camera_layout.h"
+
+// A ray from the camera. What it brings is the radiance of the pixel: with a box filter of one pixel its importance is 1.
+struct CameraRay {
+    vec3 origin;
+    vec3 direction;  // unit
+};
+
+// How a point is seen.
+struct CameraConnection {
+    bool visible;      // within the image
+    uint pixel;        // row by row from the top left
+    vec3 direction;    // unit, from the point to the camera
+    float distance;    // to where the camera's rays come from
+    // Flux through a unit of area that faces the camera, at the point, as a part of the mean radiance of the image: the
+    // importance W_e of the pixel (box filter, per unit of image area), divided by the number of pixels, times the solid
+    // angle, or the area, that the image plane has as seen from the point. m^-2.
+    float importance;
+};
+
+// Position on the image plane, both coordinates from -1 to 1 with y upwards, of a point in pixels from the top left corner.
+vec2 onImagePlane(DeviceCamera camera, vec2 pixel) {
+    vec2 ndc = pixel / vec2(camera.width, camera.height) * 2.0 - 1.0;
+    return vec2(ndc.x, -ndc.y);
+}
+
+// The pixel at a position on the image plane. A point beyond an edge is in none.
+void findPixel(DeviceCamera camera, vec2 onPlane, inout CameraConnection connection) {
+    vec2 position = vec2(0.5 + 0.5 * onPlane.x, 0.5 - 0.5 * onPlane.y) * vec2(camera.width, camera.height);
+    bool inside = position.x >= 0.0 && position.y >= 0.0 && position.x < float(int(camera.width)) &&
+                  position.y < float(int(camera.height));
+    connection.visible = connection.visible && inside;
+    uvec2 cell = connection.visible ? uvec2(ivec2(position)) : uvec2(0u);
+    connection.pixel = cell.y * camera.width + cell.x;
+}
+
+#endif

@@ -1,0 +1,33 @@
+// A camera's record, shared by C++ and GLSL (scalar block layout).
+#ifndef DUOLUX_SHADERS_SHARED_CAMERA_LAYOUT_H
+#define DUOLUX_SHADERS_SHARED_CAMERA_LAYOUT_H
+
+#include "shaders/shared/types.h"
+
+DUOLUX_BEGIN
+
+// Specialisation constant: one of the kCamera... below.
+DUOLUX_CONST uint kSpecCamera = 20u;
+
+DUOLUX_CONST uint kCameraPerspective = 0u;
+DUOLUX_CONST uint kCameraOrthographic = 1u;
+
+struct DeviceCamera {
+    vec3 position;
+    uint width;    // of the image, in pixels
+    vec3 forward;  // unit
+    uint height;   // in pixels
+    vec3
+        right;  // half the width of the image plane: perspective: at distance 1; orthographic: in scene units
+    float area;        // of the image plane
+    vec3 up;           // half its height
+    float startDepth;  // how far ahead of the camera rays begin: 0, or more before a distant scene
+    vec3 start;        // the point on the camera's axis at that depth
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(DeviceCamera) == 76);
+#endif
+
+DUOLUX_END
+#endif
