@@ -1,5 +1,5 @@
-// How a kernel reaches the triangles of a scene and finds those along a ray: by a tree of ours in texel buffers or,
-// compiled with DUOLUX_STORAGE, in storage buffers; with DUOLUX_RAY_QUERY, by an acceleration structure of the driver's.
+// How a kernel reads the triangles of a scene and finds those along a ray: our tree in texel buffers (the default), our
+// tree in storage buffers (DUOLUX_STORAGE), or an acceleration structure of the driver (DUOLUX_RAY_QUERY).
 #ifdef DUOLUX_RAY_QUERY
 
 #include "shaders/kernels/ray_query.glsl"

@@ -1,5 +1,5 @@
-// The interface of shaders/lib/traverse.glsl by ray queries: the driver walks through a tree of its own, and each ray is
-// traced to its end at once.
+// The interface of shaders/lib/traverse.glsl implemented by ray queries: the driver traverses its own tree, and one
+// call traces the whole ray.
 #extension GL_EXT_ray_query : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -10,14 +10,14 @@
 layout(binding = kBindingNodes) uniform accelerationStructureEXT structure;
 
 struct Traversal {
-    // The ray. Hits are looked for after (tMin, afterOrder) in the order of (distance, orderOfSurface).
+    // The ray. Only hits after (tMin, afterOrder) in the order of (distance, orderOfSurface) count.
     vec3 origin;
     vec3 direction;
     float tMin;
     uint afterOrder;
     bool anyHit;
-    uint firstTriangle;  // of the instance that is asked
-    // The nearest hit so far; triangle == kNoTriangle: none, and hits are before (t, order).
+    uint firstTriangle;  // of the instance that is traversed
+    // The nearest hit so far. triangle == kNoTriangle: no hit yet, and only hits before (t, order) count.
     float t;
     uint triangle;
     uint order;
@@ -25,7 +25,7 @@ struct Traversal {
     bool nodesLeft;  // the ray has not been traced yet
 };
 
-// Through all triangles if `root` is 0, else through the emitting ones, of which that is the first.
+// Traverses all triangles if `root` is 0, otherwise the emitting triangles, of which `root` is the first.
 Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterOrder, float tMax,
                          bool anyHit) {
     return Traversal(origin, direction, tMin, afterOrder, anyHit, root, tMax, kNoTriangle, kNoTriangle, vec2(0.0), true);
@@ -35,7 +35,7 @@ bool traversalAlive(Traversal r) { return r.nodesLeft; }
 
 uint instanceMask(Traversal r) { return r.firstTriangle == 0u ? kMaskAll : kMaskEmitters; }
 
-// The nearest triangle strictly between tMin and t, or some triangle there.
+// Finds the nearest triangle strictly between tMin and t or, with anyHit, any triangle in this range.
 void traverseNearest(inout Traversal r) {
     uint flags = gl_RayFlagsOpaqueEXT | (r.anyHit ? gl_RayFlagsTerminateOnFirstHitEXT : 0u);
     rayQueryEXT query;
@@ -48,11 +48,11 @@ void traverseNearest(inout Traversal r) {
     r.barycentric = rayQueryGetIntersectionBarycentricsEXT(query, true);
 }
 
-// The first triangle after (tMin, afterOrder) in the order of (distance, orderOfSurface). The distance of a triangle must
-// be the same in all queries of one ray.
+// Finds the first triangle after (tMin, afterOrder) in the order of (distance, orderOfSurface). The distance of a
+// triangle must be identical in all queries of one ray.
 void traverseOrdered(inout Traversal r) {
-    // Triangles at tMin itself may come after, too, and queries leave out both ends of their range. Distances along stored
-    // planes are not quite the driver's.
+    // A triangle at exactly tMin may also come after (tMin, afterOrder), but a query excludes both ends of its range.
+    // Distances to stored planes differ slightly from the driver's.
     float tBefore = r.tMin > 0.0 ? uintBitsToFloat(floatBitsToUint(r.tMin) - 1u) : r.tMin;
     float tBehind = r.t;
     if (kPlanes) {
@@ -81,14 +81,14 @@ void traverseOrdered(inout Traversal r) {
             r.order = order;
             r.barycentric = rayQueryGetIntersectionBarycentricsEXT(query, false);
         } else if (t > r.t) {
-            // Whatever is behind a confirmed triangle is left out. The nearest one is not confirmed, because those that
-            // coincide with it would be left out, too.
+            // The query skips everything behind a confirmed triangle. The nearest triangle is not confirmed, because
+            // the query would then skip the triangles that coincide with it.
             rayQueryConfirmIntersectionEXT(query);
         }
     }
 }
 
-// `leaveTraversal` and `leaveNodes` say when lanes leave a walk through our tree; this one they cannot leave.
+// `leaveTraversal` and `leaveNodes` have no effect: lanes cannot leave a ray query before its end.
 void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNodes) {
     if (!r.nodesLeft) return;
     r.nodesLeft = false;

@@ -1,5 +1,5 @@
-// f_opaque: ordinary BSDFs. Directions are unit, point away from the surface, and are given by their cosine to the
-// shading normal or in its frame (+z). Both directions are on the same side of the surface.
+// f_opaque: ordinary BSDFs. Directions are unit vectors that point away from the surface, in the frame whose z axis is
+// the shading normal. Both directions are on the same side of the surface.
 #ifndef DUOLUX_LIB_BSDF_GLSL
 #define DUOLUX_LIB_BSDF_GLSL
 
@@ -26,7 +26,7 @@ BsdfSample bsdfSample(Bsdf bsdf, vec3 wo, vec2 u) {
     return BsdfSample(wi, wi.z * (1.0 / kPi), bsdf.diffuse);
 }
 
-// Part of the light that is scattered, per channel: what distributes work over vertices.
+// Fraction of the light that is scattered, per channel. Work is distributed over vertices in proportion to it.
 vec3 bsdfAlbedo(Bsdf bsdf, vec3 wo) { return bsdf.diffuse; }
 
 #endif

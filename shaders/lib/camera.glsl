@@ -1,4 +1,5 @@
-// Every camera, by its kind: a ray for a point of the image, and how a point of the scene is seen.
+// Dispatches to the scene's kind of camera: the ray through a point of the image, and the connection from a point of
+// the scene to the camera.
 #ifndef DUOLUX_LIB_CAMERA_GLSL
 #define DUOLUX_LIB_CAMERA_GLSL
 

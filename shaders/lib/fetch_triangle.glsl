@@ -1,4 +1,4 @@
-// A triangle of the scene, by its index in device memory. The kernel that includes this defines fetchPairTexel.
+// Reads a triangle by its index in device memory. The kernel that includes this defines fetchPairTexel.
 #ifndef DUOLUX_LIB_FETCH_TRIANGLE_GLSL
 #define DUOLUX_LIB_FETCH_TRIANGLE_GLSL
 

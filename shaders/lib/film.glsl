@@ -1,31 +1,31 @@
-// Exact accumulation: radiance rounded once to a multiple of a quantum, summed in 64-bit integers (low, high).
+// Exact accumulation: radiance is rounded once to a multiple of a quantum and summed in 64-bit integers (low, high).
 #ifndef DUOLUX_LIB_FILM_GLSL
 #define DUOLUX_LIB_FILM_GLSL
 
 #include "shaders/lib/rng.glsl"
 #include "shaders/shared/path_layout.h"
 
-// Radiance beyond this is an error, not light.
+// Larger radiance is treated as a numerical error.
 const float kLargestRadiance = 1e30;
 
-// Uniform numbers in [0, 1), by which the channels of a sample are rounded.
+// Uniform numbers in [0, 1) for the stochastic rounding of a sample's channels.
 struct FilmRounding {
     vec3 invisible;
     vec3 visible;
 };
 
-// Of the sample that the first three numbers name.
+// The rounding numbers of the sample that (a, b, dimension) identifies.
 FilmRounding filmRounding(uint a, uint b, uint dimension, uint seed) {
-    // Not the numbers that the sampler makes of the same name.
+    // The inverted seed keeps these numbers independent of the sampler's, which hashes the same identifiers.
     uvec4 first = pcg4d(uvec4(a, b, dimension, ~seed));
     uvec4 second = pcg4d(first);
     return FilmRounding(vec3(uniformFloat(first.x), uniformFloat(first.y), uniformFloat(first.z)),
                         vec3(uniformFloat(second.x), uniformFloat(second.y), uniformFloat(second.z)));
 }
 
-// One radiance value >= 0 in quanta, clamped to the largest. Up or down by chance, in proportion to the rest: with a uniform
-// number the mean is the value, however small it is (stochastic rounding: Forsythe, "Reprint of a Note on Rounding-off
-// Errors", SIAM Review 1(1), 1959).
+// One radiance value >= 0 in quanta, clamped to kFilmLargest. It is rounded up with a probability equal to its
+// fractional part, so that the mean over uniform `u` is the value, however small it is (stochastic rounding: Forsythe,
+// "Reprint of a Note on Rounding-off Errors", SIAM Review 1(1), 1959).
 uvec2 filmQuantise(float value, float inverseQuantum, float u) {
     float scaled = min(value * inverseQuantum, kFilmLargest);
     float whole = floor(scaled);
@@ -42,7 +42,7 @@ uvec2 filmAdd(uvec2 sum, uvec2 term) {
 // The two's complement.
 uvec2 filmNegate(uvec2 term) { return uvec2(~term.x + 1u, ~term.y + (term.x == 0u ? 1u : 0u)); }
 
-// A value of either sign, rounded to the nearest; the sum is a two's complement number.
+// Adds a value of either sign, rounded to nearest; the sum is a two's complement number.
 uvec2 filmAddSigned(uvec2 sum, float value, float inverseQuantum) {
     uvec2 term = filmQuantise(abs(value), inverseQuantum, 0.5);
     return filmAdd(sum, value < 0.0 ? filmNegate(term) : term);

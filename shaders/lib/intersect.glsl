@@ -14,17 +14,18 @@ struct Triangle {
 
 struct TriangleHit {
     bool hit;
-    bool front;      // the ray comes from the side where the corners run counter-clockwise
+    bool front;      // the ray comes from the side from which the corners are counter-clockwise
     float t;         // distance in units of the direction's length
     vec2 barycentric;  // of v1 and v2
 };
 
-// Minimum and maximum on the bits as integers: the same as on floats as long as the result is not negative, without
-// the handling of NaN. Whatever the signs, they are the two numbers.
+// Minimum and maximum by comparing the bits as integers, which avoids the handling of NaN. Equal to the minimum and
+// maximum of the floats where the result is not negative. For all signs, bitsMin and bitsMax together return both
+// numbers.
 float bitsMin(float a, float b) { return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b))); }
 float bitsMax(float a, float b) { return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b))); }
 
-// Rounded alike in whatever order they come: the number with the largest bits is added last.
+// The rounded sum does not depend on the order of the arguments: the number with the largest bits is added last.
 float sumOfThree(float a, float b, float c) {
     float larger = bitsMax(a, b);
     precise float rest = bitsMin(a, b) + bitsMin(larger, c);
@@ -32,28 +33,28 @@ float sumOfThree(float a, float b, float c) {
     return sum;
 }
 
-// Twice the signed area of the triangle that the edge from p to q makes with the ray, in the plane across it; that of the
-// edge from q to p is the exact negative.
+// Twice the signed area of the triangle (ray, p, q) in the plane perpendicular to the ray. Exchanging p and q gives the
+// exact negative.
 float edgeFunction(vec2 p, vec2 q) {
     precise float area = q.x * p.y - q.y * p.x;
     return area;
 }
 
-// The side of the edge from p to q on which the ray passes, as the sign of the result. Where the area is 0 it is as if the
-// ray were moved a little along U and much less along V (simulation of simplicity: Edelsbrunner and Muecke, 1990), so that
-// a ray passes one of the triangles at a shared edge or vertex.
+// The sign of the result is the side of the edge from p to q on which the ray passes. Where the area is 0, the ray is
+// treated as moved a little along U and much less along V (simulation of simplicity: Edelsbrunner and Muecke, 1990), so
+// that it passes through exactly one of the triangles at a shared edge or vertex.
 float sideOfEdge(vec2 p, vec2 q, float area) {
     float moved = q.y != p.y ? q.y - p.y : p.x - q.x;
     return area != 0.0 ? area : moved;
 }
 
-// Watertight: a vertex is projected along the ray by arithmetic that depends on the vertex and the ray alone, and the
-// edge functions of the two triangles at an edge are exact negatives, so that a ray cannot pass between them (the
-// principle of Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, with an orthonormal
-// basis in place of the shear). Both sides are hit. A degenerate triangle is not. Distance and weights are the same to
-// the bit whichever corner comes first, so that copies of a triangle are met at one distance.
-// `axisU`, `axisV` and `direction` are orthonormal. `once`: of the triangles that share an edge or a vertex the ray hits
-// one for each time that it passes through the surface; else it may hit all of them.
+// Watertight: the projection of a vertex along the ray depends only on the vertex and the ray, and the edge functions
+// of the two triangles at an edge are exact negatives, so that a ray cannot pass between them (the principle of Woop,
+// Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, with an orthonormal basis in place of the
+// shear). Both sides of a triangle can be hit; a degenerate triangle cannot. Distance and weights are bitwise identical
+// whichever corner comes first, so that copies of a triangle have identical distances. `axisU`, `axisV` and `direction`
+// are orthonormal. `once`: of the triangles that share an edge or a vertex, the ray hits exactly one each time it
+// passes through the surface; otherwise it may hit all of them.
 TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 axisU, vec3 axisV, bool once) {
     vec3 a = tri.v0 - origin;
     vec3 b = tri.v1 - origin;
@@ -68,9 +69,11 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     float v = edgeFunction(vec2(cx, cy), vec2(ax, ay));
     float w = edgeFunction(vec2(ax, ay), vec2(bx, by));
     precise float det = sumOfThree(u, v, w);
-    // Of the corners. Products of lengths would leave the range of a float sooner than those of areas do.
+    // Barycentric weights of the corners. They are normalised before they are multiplied by distances, because a
+    // product of an area and a length overflows sooner than an area.
     precise vec3 weights = vec3(u, v, w) * (1.0 / det);
-    // A ray that goes on behind a surface knows it by its distance: wherever this is compiled it must be the same.
+    // A ray that continues behind a surface recognises it by its distance, so every compilation of this code must
+    // compute an identical distance.
     precise float ta = weights.x * dot(a, direction);
     precise float tb = weights.y * dot(b, direction);
     precise float tc = weights.z * dot(c, direction);
@@ -85,10 +88,10 @@ TriangleHit intersectTriangle(Triangle tri, vec3 origin, vec3 direction, vec3 ax
     return TriangleHit(inside && det != 0.0, det > 0.0, t, vec2(weights.y, weights.z));
 }
 
-// The inverse of a direction component, large and finite where it is 0.
+// The reciprocal of a direction component; large but finite where the component is 0.
 float safeInverse(float d) { return 1.0 / (abs(d) > 1e-20 ? d : (d < 0.0 ? -1e-20 : 1e-20)); }
 
-// Whether a ray meets a box beyond tMin.
+// Whether a ray intersects a box beyond tMin.
 bool intersectBox(vec3 origin, vec3 direction, float tMin, vec3 lower, vec3 upper) {
     vec3 inverse = vec3(safeInverse(direction.x), safeInverse(direction.y), safeInverse(direction.z));
     vec3 a = (lower - origin) * inverse;
@@ -103,7 +106,7 @@ vec3 pointOnTriangle(Triangle tri, vec2 barycentric) {
 }
 
 // Bound on the rounding error of a point on a triangle with vertices of this size, and of the distance at which a ray
-// starting there meets a neighbouring coplanar triangle: a multiple of the float's unit roundoff 2^-24.
+// from that point intersects a neighbouring coplanar triangle: a multiple of the unit roundoff 2^-24 of a float.
 float pointError(Triangle tri) {
     vec3 largest = max(abs(tri.v0), max(abs(tri.v1), abs(tri.v2)));
     return max(largest.x, max(largest.y, largest.z)) * (32.0 / 16777216.0);

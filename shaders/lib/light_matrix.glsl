@@ -1,8 +1,9 @@
-// The 2x2 algebra of vector-valued light, per colour channel (paper, eqs. 7-23). Component 0 is invisible, 1 visible.
+// The 2x2 algebra of vector-valued radiance, per colour channel (paper, eqs. 7-23). Component 0 is invisible, 1
+// visible.
 #ifndef DUOLUX_LIB_LIGHT_MATRIX_GLSL
 #define DUOLUX_LIB_LIGHT_MATRIX_GLSL
 
-// Entry ij, per channel, acts from component j on component i.
+// Entry ij maps component j to component i, per channel.
 struct LightMatrix {
     vec3 m00;
     vec3 m01;
@@ -23,7 +24,7 @@ LightMatrix lightMultiply(LightMatrix a, LightMatrix b) {
                        a.m10 * b.m00 + a.m11 * b.m10, a.m10 * b.m01 + a.m11 * b.m11);
 }
 
-// a * b where the second column of b is known to be zero, so that of the product is, too.
+// a * b where the second column of b is known to be zero; the second column of the product is then also zero.
 LightMatrix lightMultiplyFirstColumn(LightMatrix a, LightMatrix b) {
     return LightMatrix(a.m00 * b.m00 + a.m01 * b.m10, vec3(0.0), a.m10 * b.m00 + a.m11 * b.m10, vec3(0.0));
 }
@@ -38,7 +39,7 @@ Light lightScale(Light l, vec3 s) { return Light(l.invisible * s, l.visible * s)
 
 float maxComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
-// How much importance a matrix carries, its rows weighted by rowWeight: the largest channel.
+// The importance that a matrix carries, its rows weighted by rowWeight: the maximum over the channels.
 float lightWeight(LightMatrix a, vec2 rowWeight) {
     return maxComponent((a.m00 + a.m01) * rowWeight.x + (a.m10 + a.m11) * rowWeight.y);
 }

@@ -1,4 +1,4 @@
-// What a lane keeps while it traces light paths.
+// The state of a lane of the light tracer.
 #ifndef DUOLUX_LIB_LIGHT_PATH_GLSL
 #define DUOLUX_LIB_LIGHT_PATH_GLSL
 
@@ -8,55 +8,56 @@
 #include "shaders/lib/surface.glsl"
 #include "shaders/shared/light_layout.h"
 
-// A particle under way: the segment it is on.
+// A particle in flight and the segment it is on.
 struct LightPath {
-    uvec2 id;          // its number
-    Light flux;        // here on the segment, what the surfaces crossed have done included; W
-    float emitted;     // flux it began with, the unit of Russian roulette
+    uvec2 id;          // number of the light path (low, high)
+    Light flux;        // on the segment, after all surfaces crossed so far; W
+    float emitted;     // flux at the emitter, W: the reference of Russian roulette
     vec3 origin;
     vec3 direction;
-    float t;           // the last surface crossed on the segment, and where: the walk goes on after it
+    float t;           // (t, order) of the last surface crossed on the segment; the ray continues behind it
     uint order;
     uint scatterings;  // events before the segment
     uint crossings;    // on the segment
     bool ended;
 };
 
-// Where a particle may scatter. One vertex of a segment is kept, by weighted reservoir sampling.
+// A surface at which the particle may scatter. Weighted reservoir sampling chooses one vertex of a segment.
 struct Vertex {
-    Light flux;       // O L, of the chosen vertex, with the adjoint's factor for shading normals
+    Light flux;       // O L at the chosen vertex, times shadingAdjoint
     Bsdf bsdf;
     SurfacePoint point;
-    vec3 wi;          // to where the particle came from
+    vec3 wi;          // direction to the particle's origin
     float weight;     // of the chosen vertex
     float weightSum;  // of all vertices of the segment
 };
 
-// What leaves a point of a path for the camera, if that is on the side of the normal: radiance per path and unit of
-// area, the emitter's or what a surface scatters. (W sr^-1 in all, for a particle's flux is in W.)
+// Radiant intensity that leaves a vertex of a light path on the side of its normal, by emission or by scattering
+// (W sr^-1, because a particle carries flux in W). It is connected to the camera.
 struct Outgoing {
     SurfacePoint point;
     Light radiance;
-    uint scatterings;  // events on the path
+    uint scatterings;  // scattering events on the path
 };
 
-// A ray to the camera under way.
+// A ray to the camera in flight.
 struct Connection {
     bool pending;
     vec3 origin;
     vec3 direction;
     float distance;
-    float t;            // last surface crossed
+    float t;            // (t, order) of the last surface crossed
     uint order;
-    Light light;        // what would arrive if nothing more came in between
-    float roulette;     // a uniform number, and the part of all connections that are still under way
-    float survival;
+    Light light;        // contribution to the pixel if no further surface is crossed
+    float roulette;     // uniform number of the connection's Russian roulette
+    float survival;     // probability of having survived so far
     uint pixel;
-    uint scatterings;   // events on the path, for the statistics
+    uint scatterings;   // scattering events on the path, for the statistics
     uint dimension;     // of its random numbers
 };
 
-// Of a sampled emitter, on the side of `normal`. It is behind others if surfaces coincide: they may be on either side.
+// The point of a sampled emitter, on the side of `normal`. Coincident surfaces may be on either side, so the point
+// counts as behind them.
 SurfacePoint pointOnLight(LightSample light, vec3 normal) {
     vec3 position = light.coincident != 0u ? light.position : light.position + normal * light.positionError;
     return SurfacePoint(position, normal, normal, light.triangle, light.coincident);

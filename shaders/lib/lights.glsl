@@ -1,4 +1,4 @@
-// Next-event estimation: picking a point on an emitter, and the densities that multiple importance sampling needs
+// Next-event estimation: sampling a point on an emitter, and the densities that multiple importance sampling needs
 // (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2).
 // The kernel that includes this defines fetchLightTexel.
 #ifndef DUOLUX_LIB_LIGHTS_GLSL
@@ -35,7 +35,7 @@ LightTriangle fetchLight(uint index) {
 
 struct LightSample {
     vec3 position;
-    vec3 normal;          // unit, of the front
+    vec3 normal;          // unit, on the front side
     uint material;
     float positionError;
     uint triangle;        // as in DeviceLight
@@ -43,8 +43,8 @@ struct LightSample {
     uint coincident;      // 1: other surfaces lie in the same place
 };
 
-// A point with density DeviceMaterial.lightPdfArea: an emitting triangle by the alias table, then uniform on it.
-// `u`: uniform words; all 32 bits of the first serve to pick among many emitters.
+// Samples a point with density DeviceMaterial.lightPdfArea: an emitting triangle by the alias table, then a point
+// uniformly on it. `u`: uniform words; all 32 bits of the first are used, so that many emitters can be told apart.
 LightSample sampleLight(uint lightCount, uvec2 u) {
     uint index, fraction;
     umulExtended(u.x, lightCount, index, fraction);
@@ -53,7 +53,7 @@ LightSample sampleLight(uint lightCount, uvec2 u) {
     float threshold = uintBitsToFloat(entry.x);
     bool keep = rest < threshold;
     index = keep ? index : entry.y;
-    // The rest of the random number is uniform again within its interval.
+    // Within the chosen interval the random number is uniform; it is stretched to [0, 1) and reused.
     float remapped = (keep ? rest : rest - threshold) / (keep ? threshold : 1.0 - threshold);
     vec2 b = uniformTriangle(vec2(min(remapped, 0.99999994), uniformFloat(u.y)));
 
@@ -70,16 +70,17 @@ LightSample sampleLight(uint lightCount, uvec2 u) {
                        kPlanes ? light.coincident : 0u);
 }
 
-// The flux (W) that one particle from an emitter's side carries if its point was picked by sampleLight, its side evenly
-// among `sides`, and its direction in proportion to the cosine: pi E over the density of the point.
+// Flux of a particle (W) per unit of emitted radiance: the point is sampled by sampleLight, the side uniformly from
+// `sides`, and the direction with density cos / pi.
 float emittedFlux(float pdfArea, float sides) { return kPi * sides / pdfArea; }
 
-// Density per steradian, at a point `distance` away, of picking a point with density pdfArea per unit area.
+// Converts the density pdfArea (m^-2) of a point on an emitter to a density per steradian at a point
+// sqrt(distanceSquared) away.
 float pdfAreaToSolidAngle(float pdfArea, float distanceSquared, float cosAtLight) {
     return pdfArea * distanceSquared / max(abs(cosAtLight), 1e-12);
 }
 
-// Balance heuristic, of the strategy whose density is a.
+// Balance heuristic: the weight of the strategy with density a.
 float balanceHeuristic(float a, float b) { return a > 0.0 ? a / (a + b) : 0.0; }
 
 #endif

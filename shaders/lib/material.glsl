@@ -1,4 +1,4 @@
-// Materials as the device stores them (DeviceMaterial). The kernel that includes this defines fetchMaterialTexel.
+// Reads materials (DeviceMaterial). The kernel that includes this defines fetchMaterialTexel.
 #ifndef DUOLUX_LIB_MATERIAL_GLSL
 #define DUOLUX_LIB_MATERIAL_GLSL
 
@@ -33,7 +33,7 @@ LightMatrix fetchMatrix(uint texel) {
 LightMatrix fetchOpaque(uint index) { return fetchMatrix(index * kMaterialTexels + 3u); }
 LightMatrix fetchTransparent(uint index) { return fetchMatrix(index * kMaterialTexels + 7u); }
 
-// Light emitted to the side that the front flag tells.
+// Radiance emitted on the front or the back side.
 Light materialEmission(Material material, bool front) {
     bool emits = (material.flags & (front ? kMaterialEmitsFront : kMaterialEmitsBack)) != 0u;
     return Light(emits ? material.emission.invisible : vec3(0.0), emits ? material.emission.visible : vec3(0.0));

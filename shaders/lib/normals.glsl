@@ -17,7 +17,7 @@ vec3 octahedralDecode(uint bits) {
     return normalize(n);
 }
 
-// Interpolated at a point of a triangle; unit.
+// The interpolated vertex normal at a point of a triangle; unit.
 vec3 shadingNormal(uint triangle, vec2 barycentric) {
     uvec4 texel = fetchNormalTexel(triangle * kNormalTexels);
     return normalize(octahedralDecode(texel.x) * (1.0 - barycentric.x - barycentric.y) +

@@ -1,12 +1,12 @@
-// Light of a uniformly emitting triangle in closed form: Lambert's polygon formula ("Photometria", 1760; in vector form
-// Arvo, "The Irradiance Jacobian for Partially Occluded Polyhedral Sources", SIGGRAPH 1994, eq. 5).
+// Irradiance from a uniformly emitting triangle in closed form: Lambert's polygon formula ("Photometria", 1760; vector
+// form: Arvo, "The Irradiance Jacobian for Partially Occluded Polyhedral Sources", SIGGRAPH 1994, eq. 5).
 #ifndef DUOLUX_LIB_POLYGON_LIGHT_GLSL
 #define DUOLUX_LIB_POLYGON_LIGHT_GLSL
 
 #include "shaders/lib/warp.glsl"
 
-// The angle in [0, pi] whose sine and cosine are in this ratio, to 3e-7 (drivers' atan may be far worse): Abramowitz and
-// Stegun, "Handbook of Mathematical Functions", 1964, eq. 4.4.49.
+// The angle in [0, pi] whose sine and cosine have this ratio, with an error of at most 3e-7 (a driver's atan may be far
+// less accurate): Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, eq. 4.4.49.
 float angleOf(float sine, float cosine) {
     float smaller = min(sine, abs(cosine));
     float larger = max(sine, abs(cosine));
@@ -19,9 +19,9 @@ float angleOf(float sine, float cosine) {
     return cosine < 0.0 ? kPi - angle : angle;
 }
 
-// The angle between a and b times the component along the normal of the unit vector across both.
+// The angle between a and b times the component along `normal` of the unit vector perpendicular to both.
 float edgeIntegral(vec3 a, vec3 b, vec3 normal) {
-    // The shorter of the two: between corners close together a x b would lose what a x (b - a) keeps.
+    // a x b = a x (b - a). The shorter factor loses fewer digits if the corners are close together.
     vec3 edge = b - a;
     vec3 across = cross(a, dot(edge, edge) < dot(b, b) ? edge : b);
     float sine = length(across);
@@ -29,18 +29,18 @@ float edgeIntegral(vec3 a, vec3 b, vec3 normal) {
     return sine > 0.0 ? angle * dot(across, normal) / sine : 0.0;
 }
 
-// Where the edge from a to b meets the horizon; da and db are the heights of its ends, of different signs. Two terms
-// that do not cancel: from a corner far away to one nearby a + (b - a) da / (da - db) would lose the latter's digits.
+// The intersection of the edge from a to b with the horizon; da and db are the heights of its ends, with opposite
+// signs. The two terms do not cancel, unlike a + (b - a) da / (da - db), which loses the digits of b if a is far away.
 vec3 horizonPoint(vec3 a, vec3 b, float da, float db) { return (b * da - a * db) / (da - db); }
 
-// The corner whose side of the horizon is not that of the other two: 0, 1 or 2; if all are on one side, 3.
+// The corner (0, 1 or 2) that is on the other side of the horizon than the remaining two; 3 if all are on one side.
 int oddCorner(bvec3 above) {
     return above.x != above.y && above.x != above.z ? 0
                                                     : (above.y != above.z ? (above.y != above.x ? 1 : 2) : 3);
 }
 
-// Sum over the edges of the part above the horizon. What an edge cuts off there is closed by an edge along the horizon.
-// For triangles that are not small: the edges of a small one cancel.
+// Sum over the edges of the part above the horizon, including the edge along the horizon that closes a clipped
+// triangle. For triangles that are not small: the edge integrals of a small one cancel.
 float edgesAboveHorizon(vec3 a, vec3 b, vec3 c, vec3 normal) {
     float da = dot(a, normal);
     float db = dot(b, normal);
@@ -48,7 +48,7 @@ float edgesAboveHorizon(vec3 a, vec3 b, vec3 c, vec3 normal) {
     bool aboveA = da > 0.0;
     bool aboveB = db > 0.0;
     bool aboveC = dc > 0.0;
-    // Each edge with the part below cut off; one that is below altogether shrinks to a point.
+    // Each edge is clipped at the horizon; an edge that is entirely below is left out.
     vec3 ab = horizonPoint(a, b, da, db);
     vec3 bc = horizonPoint(b, c, db, dc);
     vec3 ca = horizonPoint(c, a, dc, da);
@@ -56,7 +56,7 @@ float edgesAboveHorizon(vec3 a, vec3 b, vec3 c, vec3 normal) {
     sum += aboveA || aboveB ? edgeIntegral(aboveA ? a : ab, aboveB ? b : ab, normal) : 0.0;
     sum += aboveB || aboveC ? edgeIntegral(aboveB ? b : bc, aboveC ? c : bc, normal) : 0.0;
     sum += aboveC || aboveA ? edgeIntegral(aboveC ? c : ca, aboveA ? a : ca, normal) : 0.0;
-    // Going round, one edge goes down through the horizon, another comes up.
+    // If the triangle is clipped, one of its edges crosses the horizon downwards and another upwards.
     bool cut = (aboveA || aboveB || aboveC) && !(aboveA && aboveB && aboveC);
     vec3 down = aboveA && !aboveB ? ab : (aboveB && !aboveC ? bc : ca);
     vec3 up = !aboveA && aboveB ? ab : (!aboveB && aboveC ? bc : ca);
@@ -64,9 +64,9 @@ float edgesAboveHorizon(vec3 a, vec3 b, vec3 c, vec3 normal) {
     return 0.5 * sum;
 }
 
-// The integral of cos cos' / r^2 over the triangle a, a + edge1, a + edge2, all of it counted (below the horizon
-// negative), by the moments of a triangle up to the second: for edges of a twelfth of the distance it is off by 5e-5,
-// with the cube of that ratio less. Its sign is that of the triangle's orientation, too.
+// The integral of cos cos' / r^2 over the whole triangle a, a + edge1, a + edge2 (negative below the horizon), from the
+// moments of the triangle up to the second. The error is 5e-5 for edges of a twelfth of the distance and falls with the
+// cube of this ratio. The sign of the result changes with the triangle's orientation.
 float smallTriangle(vec3 a, vec3 edge1, vec3 edge2, vec3 normal) {
     vec3 middle = a + (edge1 + edge2) * (1.0 / 3.0);
     vec3 toB = edge1 - (edge1 + edge2) * (1.0 / 3.0);
@@ -76,8 +76,7 @@ float smallTriangle(vec3 a, vec3 edge1, vec3 edge2, vec3 normal) {
     vec3 heights = vec3(dot(normal, toA), dot(normal, toB), dot(normal, toC));
     vec3 along = vec3(dot(middle, toA), dot(middle, toB), dot(middle, toC)) * inverse;
     float spread = (dot(toA, toA) + dot(toB, toB) + dot(toC, toC)) * inverse;
-    // |middle + d|^-4 to the second order in d; the mean of d d^T over a triangle is a twelfth of its sum over the
-    // corners.
+    // |middle + d|^-4 to the second order in d. The mean of d d^T over a triangle is 1/12 of its sum over the corners.
     float height = dot(normal, middle);
     float mean = height * (1.0 + dot(along, along) - spread * (1.0 / 6.0)) - dot(heights, along) * (1.0 / 3.0);
     return 0.5 * dot(cross(edge1, edge2), middle) * inverse * inverse * mean;
@@ -88,7 +87,8 @@ float smallTriangleAboveHorizon(vec3 a, vec3 edge1, vec3 edge2, vec3 normal) {
     float da = dot(a, normal);
     vec3 heights = vec3(da, da + dot(edge1, normal), da + dot(edge2, normal));
     bvec3 above = bvec3(heights.x > 0.0, heights.y > 0.0, heights.z > 0.0);
-    // The horizon cuts off the odd corner. One that is below is taken away from the whole, one above is all that is left.
+    // The horizon cuts off the odd corner. The result is the corner's part if the corner is above, or the whole
+    // triangle minus this part if the corner is below.
     int odd = oddCorner(above);
     vec3 corner = odd == 0 ? a : (odd == 1 ? a + edge1 : a + edge2);
     vec3 next = odd == 0 ? edge1 : (odd == 1 ? edge2 - edge1 : -edge2);
@@ -107,20 +107,20 @@ float smallTriangleAboveHorizon(vec3 a, vec3 edge1, vec3 edge2, vec3 normal) {
     return oneAbove ? part : (odd == 3 && !above.x ? 0.0 : whole - part);
 }
 
-// Edges of a triangle shorter than this part of its distance make it a small one.
+// A triangle is small if its edges are shorter than this fraction of its distance.
 const float kSmallTriangle = 1.0 / 12.0;
 
-// Projected solid angle, in steradians, of the triangle a, a + edge1, a + edge2 (from the receiving point, of any length),
-// as far as it is above the horizon of `normal`: a diffuse surface of albedo rho turns radiance L into rho/pi L times it.
-// The edges are given because differences of corners far away would lose them. Relative error about 1e-4 at most, where
-// neither cosine is small.
+// Projected solid angle (steradians) of the part above the horizon of `normal` of the triangle a, a + edge1, a + edge2
+// (relative to the receiving point, in any unit of length). A diffuse surface of albedo rho reflects emitted radiance L
+// as rho / pi * L times this angle. Edges are passed because the differences of distant corners would lose digits. The
+// relative error is at most about 1e-4 where neither cosine is small.
 float projectedSolidAngle(vec3 a, vec3 edge1, vec3 edge2, vec3 normal) {
     vec3 middle = a + (edge1 + edge2) * (1.0 / 3.0);
     vec3 edge3 = edge2 - edge1;
     float longest = max(dot(edge1, edge1), max(dot(edge2, edge2), dot(edge3, edge3)));
     bool isSmall = longest < kSmallTriangle * kSmallTriangle * dot(middle, middle);
     float angle = 0.0;
-    // Loops, because only these skip what no lane needs.
+    // On lavapipe, only loops skip code that no lane needs; an `if` executes both branches.
     for (int i = isSmall ? 0 : 1; i < 1; i++) angle = smallTriangleAboveHorizon(a, edge1, edge2, normal);
     for (int i = isSmall ? 1 : 0; i < 1; i++) angle = edgesAboveHorizon(a, a + edge1, a + edge2, normal);
     return abs(angle);

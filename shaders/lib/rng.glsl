@@ -1,4 +1,4 @@
-// Counter-based random numbers: a hash of (pixel, sample, dimension, seed), no state.
+// Counter-based random numbers: a hash of (pixel, sample, dimension, seed), without state.
 #ifndef DUOLUX_LIB_RNG_GLSL
 #define DUOLUX_LIB_RNG_GLSL
 

@@ -1,4 +1,4 @@
-// The samples of a path. Each vertex draws pairs of numbers; a pair is named by (pixel, sample, dimension, seed).
+// The random numbers of a path. Each vertex draws pairs of numbers; (pixel, sample, dimension, seed) identifies a pair.
 #ifndef DUOLUX_LIB_SAMPLER_GLSL
 #define DUOLUX_LIB_SAMPLER_GLSL
 
@@ -6,9 +6,10 @@
 #include "shaders/lib/sobol.glsl"
 #include "shaders/shared/path_layout.h"
 
-// What a pair of numbers is for; with the vertex it makes the dimension. A light path has other uses for two of them:
-// the direction from its emitter, and connections to the camera. Of the latter's dimension at the emitter the pair of
-// sampleWords is the point on it, the two numbers of sampleChoice are the connection's and the side.
+// The purpose of a pair of numbers; vertex and purpose together are the dimension. The light tracer reuses two of the
+// values: for the direction from the emitter, and for connections to the camera. In the latter dimension at the
+// emitter, sampleWords chooses the point on the emitter, and sampleChoice gives the number of the connection and the
+// side.
 const uint kDimensionPixel = 0u;
 const uint kDimensionEmission = 0u;
 const uint kDimensionCamera = 1u;

@@ -1,4 +1,4 @@
-// What a sample gathers, and the sums over the samples of a slot (a pixel).
+// The radiance that a sample gathers, and the sums over the samples of a slot (a pixel).
 #ifndef DUOLUX_LIB_SLOT_SUMS_GLSL
 #define DUOLUX_LIB_SLOT_SUMS_GLSL
 
@@ -6,15 +6,14 @@
 #include "shaders/lib/light_matrix.glsl"
 #include "shaders/shared/path_layout.h"
 
-// What one sample has gathered.
 struct Gathered {
     Light light;
     float lastBounce;
     float previousBounce;
 };
 
-// Adds light that came over a path with so many scattering events; the last two allowed are summed apart, as `display`
-// shows them.
+// Adds the contribution of a path with `scatterings` scattering events. The displayed radiance (by the row `display`)
+// of paths with the largest number of events, and of those with one fewer, is also summed separately.
 void gather(inout Gathered g, Light light, uint scatterings, uint bounces, vec2 display) {
     g.light.invisible += light.invisible;
     g.light.visible += light.visible;
@@ -26,7 +25,7 @@ void gather(inout Gathered g, Light light, uint scatterings, uint bounces, vec2 
 
 Gathered nothingGathered() { return Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0); }
 
-// What a lane adds up while it takes the samples of a slot.
+// The sums of a lane over the samples of a slot.
 struct SlotSums {
     FilmSum invisible;
     FilmSum visible;

@@ -7,7 +7,7 @@
 
 #include "shaders/lib/rng.glsl"
 
-// Owen scrambling of a number whose bits are reversed: each bit is flipped by a hash of the lower ones and the seed.
+// Owen scrambling of a number with reversed bits: a hash of the lower bits and the seed flips each bit.
 uint owenScrambleReversed(uint x, uint seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -17,7 +17,8 @@ uint owenScrambleReversed(uint x, uint seed) {
     return x;
 }
 
-// Second Sobol dimension of an index, as the reversed bits of its fraction: the Pascal matrix modulo 2.
+// Second Sobol dimension of an index, as the reversed bits of the fraction: multiplication by the Pascal matrix modulo
+// 2.
 uint sobolSecondReversed(uint index) {
     index ^= (index & 0xaaaaaaaau) >> 1u;
     index ^= (index & 0xccccccccu) >> 2u;
@@ -27,10 +28,10 @@ uint sobolSecondReversed(uint index) {
     return index;
 }
 
-// Point `index` of the pair of dimensions that `key` stands for; index < 2^32.
+// Point `index` of the pair of dimensions that `key` identifies.
 uvec2 sobolPair(uint index, uvec4 key) {
     uint shuffled = bitfieldReverse(owenScrambleReversed(bitfieldReverse(index), key.x));
-    // The first dimension's fraction is the reversed index: reversed again it is the index itself.
+    // The fraction of the first dimension is the reversed index, so its reversed bits are the index itself.
     uint first = owenScrambleReversed(shuffled, key.y);
     uint second = owenScrambleReversed(sobolSecondReversed(shuffled), key.z);
     return uvec2(bitfieldReverse(first), bitfieldReverse(second));

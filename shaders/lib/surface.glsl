@@ -1,5 +1,5 @@
-// A point on a surface where light may scatter or begin. The kernel that includes this defines fetchNormalTexel, and what
-// plane.glsl and fetch_triangle.glsl need.
+// A point on a surface at which a path scatters or starts. The kernel that includes this defines fetchNormalTexel and
+// the functions that plane.glsl and fetch_triangle.glsl need.
 #ifndef DUOLUX_LIB_SURFACE_GLSL
 #define DUOLUX_LIB_SURFACE_GLSL
 
@@ -10,14 +10,14 @@
 #include "shaders/shared/bvh_layout.h"
 
 struct SurfacePoint {
-    vec3 position;         // moved off the surface to the side that the ray came from, unless it is behind others
-    vec3 geometricNormal;  // unit, to that side
-    vec3 shadingNormal;    // unit, the same side of the surface
-    uint triangle;         // its index among the device's
-    uint behindOthers;     // 1: other surfaces lie in the same place, on that side
+    vec3 position;         // offset from the surface to the side that the ray came from, unless behindOthers is 1
+    vec3 geometricNormal;  // unit, on that side
+    vec3 shadingNormal;    // unit, on that side
+    uint triangle;         // index in device memory
+    uint behindOthers;     // 1: coincident surfaces lie before this one on that side
 };
 
-// `normal`: unit, of the triangle's front; `triangle`: its index among the device's.
+// `normal`: unit, on the triangle's front side; `triangle`: its index in device memory.
 SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 normal, vec3 rayDirection,
                           bool smoothNormals) {
     float cosine = dot(normal, rayDirection);
@@ -34,7 +34,8 @@ SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 no
     return point;
 }
 
-// The same point by the triangle's plane, if there are planes. `at`: where the ray met it.
+// Moves the point to the triangle's stored plane, if the scene stores planes. `at`: the ray's intersection with the
+// plane.
 SurfacePoint placedByPlane(SurfacePoint point, vec3 at, bool behindOthers) {
     if (!kPlanes) return point;
     Plane plane = fetchPlane(point.triangle);
@@ -44,14 +45,15 @@ SurfacePoint placedByPlane(SurfacePoint point, vec3 at, bool behindOthers) {
     return point;
 }
 
-// Where a ray begins: at a point, after the surfaces at this distance up to that order.
+// The start of a ray: its origin, and the (t, order) after which it meets surfaces.
 struct RayBegin {
     vec3 origin;
     float t;
     uint order;
 };
 
-// A ray that leaves a point of a surface on the side that the point's normals are on. From behind others it meets those.
+// Starts a ray that leaves a surface on the side of the point's normals. If coincident surfaces lie on this side, the
+// ray crosses them.
 RayBegin leaveSurface(SurfacePoint point, vec3 direction) {
     if (!kPlanes || point.behindOthers == 0u) return RayBegin(point.position, 0.0, kNoTriangle);
     Plane plane = fetchPlane(point.triangle);
@@ -59,17 +61,17 @@ RayBegin leaveSurface(SurfacePoint point, vec3 direction) {
                     orderOfSurface(fetchTriangle(point.triangle).primitive, dot(plane.normal, direction) < 0.0));
 }
 
-// What gathering does at a point with a shading normal is |wi . Ns| in place of |wi . Ng|, wi towards the light. The
-// adjoint of that is not the same with the roles of the directions exchanged: a particle that comes in from wi is
-// scattered by f |wi . Ns| / |wi . Ng|, then by the cosine to the geometric normal (Veach, "Robust Monte Carlo Methods
-// for Light Transport Simulation", 1997, section 5.3). Zero where the two normals see wi on different sides.
+// With a shading normal Ns, the path tracer uses |wi . Ns| in place of |wi . Ng| (wi points to the light). The adjoint
+// is not obtained by exchanging the directions: the light tracer scatters a particle that arrives from wi by f |wi .
+// Ns| / |wi . Ng| and the cosine between wo and the geometric normal (Veach, "Robust Monte Carlo Methods for Light
+// Transport Simulation", 1997, section 5.3). Zero where wi is on different sides of the two normals.
 float shadingAdjoint(SurfacePoint point, vec3 wi) {
     float cosShading = dot(point.shadingNormal, wi);
     float cosGeometric = dot(point.geometricNormal, wi);
     return cosShading > 0.0 && cosGeometric > 0.0 ? cosShading / cosGeometric : 0.0;
 }
 
-// A direction in the frame whose z axis is `normal`, unit vectors both.
+// Transforms a unit direction to a frame whose z axis is the unit vector `normal`.
 vec3 toFrame(vec3 normal, vec3 direction) {
     vec3 tangent, bitangent;
     orthonormalBasis(normal, tangent, bitangent);

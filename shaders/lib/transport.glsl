@@ -1,6 +1,6 @@
-// The 2x2 blocks of the surfaces, as the scene needs them: constants leave out what no block of it does.
-// The kernel that includes this defines sceneOpaque and sceneTransparent, the blocks that all materials share if
-// kOneReflectance.
+// The 2x2 reflectance matrices of surfaces. Specialisation constants remove the code that no matrix of the scene needs.
+// The kernel that includes this defines sceneOpaque and sceneTransparent, the matrices that all materials share if
+// kOneReflectance is true.
 #ifndef DUOLUX_LIB_TRANSPORT_GLSL
 #define DUOLUX_LIB_TRANSPORT_GLSL
 
@@ -30,7 +30,8 @@ LightMatrix multiply(LightMatrix a, LightMatrix b) {
     return kSecondColumn ? lightMultiply(a, b) : lightMultiplyFirstColumn(a, b);
 }
 
-// Importance that no surface can pass on by scattering or straight through is known without a look at the surface.
+// Whether any surface of the scene can scatter, or transmit, some of the importance of a path; known without reading
+// the surface's material.
 bool canScatter(LightMatrix w) {
     return (kInvisibleScatters && maxComponent(w.m00 + w.m10) > 0.0) ||
            (kVisibleScatters && maxComponent(w.m01 + w.m11) > 0.0);
@@ -41,9 +42,9 @@ bool canCross(LightMatrix w) {
            (kVisibleCrosses && maxComponent(w.m01 + w.m11) > 0.0);
 }
 
-// Russian roulette: the probability that a path goes on which carries `weight` of what it began with. The square root
-// lets paths fade instead of all carrying the same until they end: less noise for the rays traced. Where weights grow
-// (crossing surfaces that also scatter) every path survives and carries the growth.
+// Russian roulette: the probability that a path continues whose throughput is `weight` relative to its start. With the
+// square root, throughput decreases gradually along a path, which gives less noise per ray than constant throughput
+// with more terminations. Where the throughput grows (crossings of surfaces that also scatter), every path continues.
 float survivalProbability(float weight) { return weight < 1.0 ? min(sqrt(weight), 0.95) : 1.0; }
 
 #endif

@@ -1,8 +1,8 @@
-// Traversal of the 8-wide quantised tree of shaders/shared/bvh_layout.h, written as a machine that can be left and
-// resumed: lanes of a subgroup that have found their hit return to be given new rays while the others go on
-// (Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009).
+// Traversal of the 8-wide quantised tree of shaders/shared/bvh_layout.h as a state machine that can be left and
+// resumed: lanes of a subgroup that have found their hit return and get new rays while the others continue (Aila and
+// Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009).
 //
-// The kernel that includes this defines fetchNodeTexel, and what fetch_triangle.glsl needs.
+// The kernel that includes this defines fetchNodeTexel and the functions that fetch_triangle.glsl needs.
 #ifndef DUOLUX_LIB_TRAVERSE_GLSL
 #define DUOLUX_LIB_TRAVERSE_GLSL
 
@@ -16,11 +16,12 @@
 
 uvec4 fetchNodeTexel(uint index);
 
-// Votes of a subgroup of 8 by shuffles, which lavapipe compiles to an instruction each, but ballots to a loop over lanes.
+// Subgroups of 8 vote by shuffles: lavapipe compiles a shuffle to one instruction, but a ballot to a loop over the
+// lanes.
 layout(constant_id = kSpecVoteByShuffle) const bool kVoteByShuffle = false;
 
 struct Traversal {
-    // The ray. Hits are looked for after (tMin, afterOrder) in the order of (distance, orderOfSurface).
+    // The ray. Only hits after (tMin, afterOrder) in the order of (distance, orderOfSurface) count.
     vec3 origin;
     vec3 direction;
     vec3 inverse;
@@ -30,13 +31,13 @@ struct Traversal {
     uint afterOrder;
     bool anyHit;
     uint octant;
-    // The nearest hit so far; triangle == kNoTriangle: none, and hits are before (t, order).
+    // The nearest hit so far. triangle == kNoTriangle: no hit yet, and only hits before (t, order) count.
     float t;
     uint triangle;
     uint order;
     vec2 barycentric;
-    // Position in the tree: a group of sibling nodes still to visit (bits 24..31 of groupMask by visiting order, bits
-    // 0..7 the slots that hold nodes), and pairs of triangles still to test.
+    // Position in the tree: the current group of siblings (groupMask: bits 24..31 are the remaining nodes in visiting
+    // order, bits 0..7 the slots that hold nodes), and the remaining pairs of triangles.
     uint groupBase;
     uint groupMask;
     uint pairBase;
@@ -45,13 +46,13 @@ struct Traversal {
     bool nodesLeft;
 };
 
-// The stack of groups. It belongs to the one traversal a lane has under way; a private global, because arrays in
-// function parameters are copied.
+// The stack of groups of the one traversal that a lane has in flight. It is global because arrays in function
+// parameters are copied.
 uint stackBase[kMaxTreeDepth];
 uint stackMask[kMaxTreeDepth];
 
-// Starts at the tree whose root is node `root`. With kNoTriangle for afterOrder no surface at the distance tMin is met; to
-// leave out some at tMax, set `order`.
+// Starts a traversal of the tree whose root is node `root`. If afterOrder is kNoTriangle, surfaces at distance tMin are
+// excluded. Surfaces at tMax with orders from `order` on are excluded; the caller may set `order`.
 Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterOrder, float tMax,
                          bool anyHit) {
     Traversal r;
@@ -92,7 +93,7 @@ uint intersectFourChildren(Traversal r, vec3 scale, vec3 offset, uint meta, uint
     vec4 nearZ = unpackBytes(r.inverse.z < 0.0 ? upperZ : lowerZ) * scale.z + offset.z;
     vec4 farZ = unpackBytes(r.inverse.z < 0.0 ? lowerZ : upperZ) * scale.z + offset.z;
 
-    // An inner child's meta is 0x20 | 24 + slot: only then bits 3 and 4 of it are both set.
+    // The meta byte of an inner child is 0x20 | (24 + slot); bits 3 and 4 are both set only in inner children.
     uint isInner = (meta & (meta << 1u)) & 0x10101010u;
     uint innerBytes = (isInner >> 4u) * 255u;
     uint bitIndices = (meta ^ ((r.octant * 0x01010101u) & innerBytes)) & 0x1f1f1f1fu;
@@ -108,17 +109,17 @@ uint intersectFourChildren(Traversal r, vec3 scale, vec3 offset, uint meta, uint
     return hits;
 }
 
-// Visits the next node. Requires r.nodesLeft and no pairs left.
+// Visits the next node. Requires r.nodesLeft and r.pairMask == 0.
 void visitNode(inout Traversal r) {
     uint bit = uint(findMSB(r.groupMask));
     uint slot = (bit - 24u) ^ r.octant;
     r.groupMask &= ~(1u << bit);
     uint node = r.groupBase + uint(bitCount(r.groupMask & ((1u << slot) - 1u) & 255u));
-    // The rest of the group waits on the stack.
+    // The remaining nodes of the group go onto the stack.
     stackBase[r.stackSize] = r.groupBase;
     stackMask[r.stackSize] = r.groupMask;
     r.stackSize += r.groupMask > 0x00ffffffu ? 1 : 0;
-    // What comes next if no child is hit, read before that is known: the node's way through the processor is the longer.
+    // The next group in case no child is hit. It is read early, so that its latency overlaps with the node's.
     int top = max(r.stackSize - 1, 0);
     uint topBase = stackBase[top];
     uint topMask = stackMask[top];
@@ -158,7 +159,7 @@ void testTriangle(inout Traversal r, Triangle tri, uint index, bool ordered) {
     }
     uint order = orderOfSurface(tri.primitive, front);
     bool accepted = h.hit && t < r.t && t > r.tMin;
-    if (ordered) {  // coincident surfaces are met one after the other
+    if (ordered) {  // coincident surfaces are crossed one by one
         bool after = t > r.tMin || (t == r.tMin && order > r.afterOrder);
         bool nearer = t < r.t || (t == r.t && order < r.order);
         accepted = h.hit && after && nearer;
@@ -178,8 +179,9 @@ void testPair(inout Traversal r, bool ordered) {
     testTriangle(r, pair.second, 2u * index + 1u, ordered);
 }
 
-// Lanes of the subgroup for which `b` holds, to decide when to leave a loop. A lane that is no longer in the loop must have
-// a ray that is done: how a shuffle sees it is undefined, and on lavapipe it is seen as it was.
+// Number of lanes in the subgroup for which `b` is true; decides when to leave a loop. The rays of lanes that have
+// already left the loop must be done: the value that a shuffle reads from an inactive lane is undefined; lavapipe
+// returns the last.
 uint laneCount(bool b) {
     if (!kVoteByShuffle) return subgroupBallotBitCount(subgroupBallot(b));
     uint count = b ? 1u : 0u;
@@ -188,8 +190,9 @@ uint laneCount(bool b) {
     return count + subgroupShuffleXor(count, 4u);
 }
 
-// Goes on until the ray is done or fewer than `leaveTraversal` lanes of the subgroup are under way. The node loop is
-// left for triangles when fewer than `leaveNodes` lanes want another node. `ordered`: see testTriangle.
+// Continues until the ray is done or fewer than `leaveTraversal` lanes of the subgroup have rays in flight. The node
+// loop ends, and triangles are tested, when fewer than `leaveNodes` lanes need another node. `ordered`: see
+// testTriangle.
 void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNodes) {
     while (traversalAlive(r)) {
         while (r.pairMask == 0u && r.nodesLeft) {

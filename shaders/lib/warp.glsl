@@ -1,4 +1,4 @@
-// Mappings from the unit square, and frames.
+// Mappings from the unit square, and orthonormal frames.
 #ifndef DUOLUX_LIB_WARP_GLSL
 #define DUOLUX_LIB_WARP_GLSL
 
@@ -11,7 +11,7 @@ vec3 cosineHemisphere(vec2 u) {
     return vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
 }
 
-// Barycentric coordinates (of the second and third vertex), uniform by area: Heitz, "A Low-Distortion Map Between
+// Barycentric coordinates (of the second and third vertex), uniform in area: Heitz, "A Low-Distortion Map Between
 // Triangle and Square", 2019.
 vec2 uniformTriangle(vec2 u) {
     vec2 b = u.y > u.x ? vec2(u.x * 0.5, u.y - u.x * 0.5) : vec2(u.x - u.y * 0.5, u.y * 0.5);

@@ -1,4 +1,4 @@
-// A camera's record, shared by C++ and GLSL (scalar block layout).
+// The record of a camera, shared by C++ and GLSL (scalar block layout).
 #ifndef DUOLUX_SHADERS_SHARED_CAMERA_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_CAMERA_LAYOUT_H
 
@@ -21,7 +21,7 @@ struct DeviceCamera {
         right;  // half the width of the image plane: perspective: at distance 1; orthographic: in scene units
     float area;        // of the image plane
     vec3 up;           // half its height
-    float startDepth;  // how far ahead of the camera rays begin: 0, or more before a distant scene
+    float startDepth;  // distance ahead of the camera at which rays begin; above 0 for a distant scene
     vec3 start;        // the point on the camera's axis at that depth
 };
 

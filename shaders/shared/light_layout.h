@@ -1,5 +1,6 @@
-// Bindings and records of the light-tracing kernel beyond those of path_layout.h, shared by C++ and GLSL
-// (scalar block layout). It uses the bindings 0 to 5, kBindingResults (LaneResult) and kBindingTeams, too.
+// Bindings and records of the light tracer's kernel, in addition to those of path_layout.h, shared by C++ and
+// GLSL (scalar block layout). It also uses the bindings 0 to 5, kBindingResults (LaneResult) and
+// kBindingTeams.
 #ifndef DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
 
@@ -7,30 +8,30 @@
 
 DUOLUX_BEGIN
 
-// Storage: the sums of the film, an array of buffers of which each holds a band of pixels, because devices
-// limit what one may hold. A pixel has six 64-bit sums in quanta: invisible r, g, b, visible r, g, b.
+// Storage: the sums of the film, an array of buffers. Each buffer holds a band of pixels, because devices
+// limit the size of a buffer. A pixel has six 64-bit sums in quanta: invisible r, g, b, visible r, g, b.
 DUOLUX_CONST uint kBindingFilm = 9u;
 DUOLUX_CONST uint kMaxFilmBands = 8u;
 DUOLUX_CONST uint kFilmSums = 6u;
 DUOLUX_CONST float kStatisticsQuanta = 4096.0f;
 
-// One of the kTransmittance...: what surfaces do to light on its way to the camera.
+// One of the kTransmittance... constants: the effect of surfaces on a connection to the camera.
 DUOLUX_CONST uint kSpecCameraTransmittance = 15u;
 DUOLUX_CONST uint kSpecFilmBands = 16u;
 DUOLUX_CONST uint kSpecBandPixels = 17u;  // pixels of each band but the last
 
-// A range of light paths. Each has a number of its own below 2^64, as (low, high).
+// A range of light paths. Each path has a unique 64-bit number (low, high).
 struct LightDispatch {
     uint firstLow;
     uint firstHigh;
     uint count;
-    uint teamPaths;    // paths that each team of lanes takes, one after the other
-    uint firstResult;  // where the first lane's goes
+    uint teamPaths;    // paths that each team of lanes traces, one after the other
+    uint firstResult;  // index of the first lane's result
     uint firstTeam;
     float inverseQuantum;
 };
 
-// Sums over the paths that a lane has taken in one dispatch. 64-bit two's complement numbers as (low, high).
+// Sums over the paths that a lane traced in one dispatch. 64-bit two's complement numbers as (low, high).
 struct LaneResult {
     uint nonFinite;  // contributions dropped because they were not finite
     uint clamped;    // contributions brighter than the film can hold
@@ -38,9 +39,9 @@ struct LaneResult {
     uint bounceRays;
     uint shadowRays;     // to the camera
     uint lastBounce[2];  // displayed radiance (mean of channels) with PathParams.bounces scattering events,
-                         // in units of kStatisticsQuanta, of which many fit however bright they are
-    uint previousBounce[2];  // with one fewer
-    uint invisible[2];       // all that arrived (mean of channels), in the same units
+                         // in units of kStatisticsQuanta, so coarse that many contributions fit
+    uint previousBounce[2];  // the same with one event fewer
+    uint invisible[2];       // all radiance that arrived (mean of channels), in the same units
     uint visible[2];
 };
 

@@ -1,5 +1,5 @@
-// Parameters, bindings and records of the path-tracing kernel, and in part of the light-tracing one, shared
-// by C++ and GLSL (scalar block layout).
+// Parameters, bindings and records of the path tracer's kernel, in part also used by the light tracer's,
+// shared by C++ and GLSL (scalar block layout).
 #ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 
@@ -8,7 +8,7 @@
 
 DUOLUX_BEGIN
 
-// One sample of a pixel holds at most this many quanta of the film, 2^58; so does the mean of a pixel.
+// The largest value of one sample of a pixel, and of the mean of a pixel, in quanta of the film: 2^58.
 DUOLUX_CONST float kFilmLargest = 288230376151711744.0f;
 
 // Descriptor bindings, all in set 0.
@@ -28,9 +28,9 @@ DUOLUX_CONST uint kSpecLeaveTraversal = 1u;  // leave the traversal when fewer l
 DUOLUX_CONST uint kSpecLeaveNodes = 2u;      // leave the node loop when fewer lanes want nodes
 DUOLUX_CONST uint kSpecTransmittance = 3u;   // one of the kTransmittance... below
 DUOLUX_CONST uint kSpecSecondColumn =
-    4u;  // some O or T has an entry m01 or m11: visible light scatters or passes on
+    4u;  // some O or T has an entry m01 or m11: visible light scatters or is transmitted
 DUOLUX_CONST uint kSpecInvisibleScatters =
-    5u;  // some O has m00 or m01: importance for invisible light scatters on
+    5u;  // some O has m00 or m01: importance for invisible light scatters
 DUOLUX_CONST uint kSpecVisibleScatters = 6u;   // some O has m10 or m11
 DUOLUX_CONST uint kSpecInvisibleCrosses = 7u;  // some T has m00 or m01
 DUOLUX_CONST uint kSpecVisibleCrosses = 8u;    // some T has m10 or m11
@@ -44,19 +44,19 @@ DUOLUX_CONST uint kSpecTeamSize = 14u;     // lanes that share a range of slots;
 DUOLUX_CONST uint kSamplerSobol = 0u;  // Owen-scrambled Sobol points
 DUOLUX_CONST uint kSamplerIndependent = 1u;
 
-// How light from emitters to a vertex is found.
+// How direct light at a vertex is computed.
 DUOLUX_CONST uint kDirectLightNone = 0u;     // there is no emitter
 DUOLUX_CONST uint kDirectLightSampled = 1u;  // by next-event estimation and multiple importance sampling
 DUOLUX_CONST uint kDirectLightClosedForm =
-    2u;  // Lambert's formula for each emitter; where nothing can be in between
+    2u;  // by Lambert's formula for each emitter; only where nothing can block an emitter
 
-// What a segment between two points does to light, scene-wide.
+// The transmittance of a segment between two points, for the whole scene.
 DUOLUX_CONST uint kTransmittanceZero = 0u;  // every T is 0: any surface hides what is behind it
 DUOLUX_CONST uint kTransmittanceIdentity =
     1u;  // every T passes the components that carry importance unchanged
 DUOLUX_CONST uint kTransmittanceGeneral = 2u;  // a product of 2x2 matrices, in order
 
-// LightMatrix: F_ij per channel, acting from component j on component i; 0 = invisible, 1 = visible.
+// A LightMatrix: entry ij maps component j to component i, per channel; 0 = invisible, 1 = visible.
 struct DeviceLightMatrix {
     vec3 m00;
     vec3 m01;
@@ -70,13 +70,13 @@ struct PathParams {
     uint bounces;  // largest number of scattering events on a path
     DeviceLightMatrix opaque;
     DeviceLightMatrix transparent;
-    vec2 rowWeight;  // how much the components (invisible, visible) of a pixel count when work is
-                     // distributed; sum 1
+    vec2 rowWeight;  // weights of the components (invisible, visible) of a pixel in the distribution of
+                     // work; their sum is 1
     vec2 display;    // the row d of eq. 8
     uint lightCount;
-    uint emitterRoot;   // node index of the root of the tree over emitters, or index of the first of their
-                        // triangles where the driver has the tree; 0: there is none
-    vec3 emitterLower;  // their bounds, widened a little
+    uint emitterRoot;   // index of the root node of the tree over emitters or, with the driver's tree, of the
+                        // first emitting triangle; 0: there is none
+    vec3 emitterLower;  // bounds of the emitters, slightly enlarged
     vec3 emitterUpper;
 };
 
@@ -85,14 +85,14 @@ struct DispatchParams {
     uint slotCount;
     uint firstSample;
     uint sampleCount;
-    uint teamSlots;    // slots that each team of lanes takes, one after the other
-    uint firstResult;  // where in the results the first slot's goes
-    uint firstTeam;    // where the progress of the first team is kept
+    uint teamSlots;    // slots that each team of lanes processes, one after the other
+    uint firstResult;  // index of the first slot's result
+    uint firstTeam;    // index of the first team's progress
     float inverseQuantum;
 };
 
-// Slots that the lanes of a team have begun and finished. Finished are fewer than asked for if the driver cut
-// the kernel's loops short.
+// Slots that the lanes of a team have started and finished. If the driver has ended the kernel's loops early,
+// fewer slots are finished than requested.
 struct TeamProgress {
     uint taken;
     uint finished;
@@ -109,7 +109,7 @@ struct SlotResult {
     uint shadowRays;
     uint emitterRays;
     float lastBounce;      // displayed radiance (mean of channels) with PathParams.bounces scattering events
-    float previousBounce;  // with one fewer
+    float previousBounce;  // the same with one event fewer
 };
 
 // Records fetched as texels of 4 x uint32.
@@ -130,8 +130,7 @@ struct DeviceMaterial {
     vec3 diffuse;
     uint flags;
     vec3 invisibleEmission;
-    float lightPdfArea;  // density per unit area with which next-event estimation picks a point of this
-                         // emitter, m^-2
+    float lightPdfArea;  // density with which next-event estimation samples a point of this emitter, m^-2
     vec3 visibleEmission;
     float padding;
     vec4 opaque[4];  // m00 m01 m10 m11 in xyz
@@ -152,11 +151,11 @@ struct DeviceLight {
     vec3 v1;
     float positionError;  // bound on the rounding error of a point on the triangle, as for hits
     vec3 v2;
-    uint triangle;    // its index among the device's triangles, kSpecPlanes only
-    float threshold;  // keep this light with this probability,
-    uint alias;       // else take that one
-    uint primitive;   // its rank
-    uint coincident;  // 1 if other surfaces lie in the same place, kSpecPlanes only
+    uint triangle;    // index of the triangle in device memory, kSpecPlanes only
+    float threshold;  // probability of keeping this entry of the alias table
+    uint alias;       // the entry to use otherwise
+    uint primitive;   // rank
+    uint coincident;  // 1 if other surfaces coincide with this one, kSpecPlanes only
 };
 static_assert(sizeof(DeviceLight) == kLightTexels * 16);
 #endif

@@ -1,5 +1,6 @@
-// Bindings and records of the kernel that traces given rays and nothing else, shared by C++ and GLSL (scalar
-// block layout). It uses kBindingNodes and kBindingTriangles of path_layout.h and its constants 0 to 2, too.
+// Bindings and records of the kernel that only traces given rays, shared by C++ and GLSL (scalar block
+// layout). It also uses kBindingNodes, kBindingTriangles and the specialisation constants 0 to 2 of
+// path_layout.h.
 #ifndef DUOLUX_SHADERS_SHARED_TRACE_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_TRACE_LAYOUT_H
 
@@ -7,11 +8,11 @@
 
 DUOLUX_BEGIN
 
-DUOLUX_CONST uint kBindingRays = 2u;  // texels: TraceRay, of two texels
+DUOLUX_CONST uint kBindingRays = 2u;  // texels: TraceRay, two texels each
 DUOLUX_CONST uint kBindingHits = 3u;  // storage: TraceHit
 
 DUOLUX_CONST uint kSpecTraceMode = 3u;  // one of the kTrace... below
-DUOLUX_CONST uint kSpecCount = 4u;      // count what the traversal does, which makes it slower
+DUOLUX_CONST uint kSpecCount = 4u;      // count visits and tests, which makes the traversal slower
 
 DUOLUX_CONST uint kTraceNearest = 0u;
 DUOLUX_CONST uint kTraceAnyHit = 1u;
@@ -25,19 +26,19 @@ struct TraceRay {
 };
 
 struct TraceHit {
-    float t;      // of the nearest hit, some hit, or the first crossing; negative: none
-    vec3 normal;  // of the triangle's front, not normalised; (crossings, 0, 0) with kTraceAllCrossings
+    float t;      // distance to the nearest hit, any hit, or the first crossing; negative: no hit
+    vec3 normal;  // on the triangle's front side, not unit; (crossings, 0, 0) with kTraceAllCrossings
 };
 
 // In place of hits where kSpecCount is true: sums over the dispatch.
 struct TraceCounts {
     uint nodes;      // visited
     uint pairs;      // of triangles, tested
-    uint nodeSteps;  // of subgroups, in which at least one lane visited a node
-    uint pairSteps;  // in which at least one tested a pair
+    uint nodeSteps;  // steps of a subgroup in which at least one lane visited a node
+    uint pairSteps;  // steps of a subgroup in which at least one lane tested a pair
 };
 
-// Rays of [0, rays) in blocks, one a subgroup.
+// The rays [0, rays) are divided into blocks of blockRays, one for each subgroup.
 struct TraceDispatch {
     uint rays;
     uint blockRays;

@@ -1,34 +1,35 @@
-// What a camera answers: the contract of the files in this folder.
+// The results that every camera in this folder returns.
 #ifndef DUOLUX_LIB_CAMERA_CAMERA_TYPES_GLSL
 #define DUOLUX_LIB_CAMERA_CAMERA_TYPES_GLSL
 
 #include "shaders/shared/camera_layout.h"
 
-// A ray from the camera. What it brings is the radiance of the pixel: with a box filter of one pixel its importance is 1.
+// A ray from the camera. Its importance is 1 (box filter of one pixel): the radiance along it is the pixel's radiance.
 struct CameraRay {
     vec3 origin;
     vec3 direction;  // unit
 };
 
-// How a point is seen.
+// How the camera sees a point of the scene.
 struct CameraConnection {
     bool visible;      // within the image
     uint pixel;        // row by row from the top left
     vec3 direction;    // unit, from the point to the camera
-    float distance;    // to where the camera's rays come from
-    // Flux through a unit of area that faces the camera, at the point, as a part of the mean radiance of the image: the
-    // importance W_e of the pixel (box filter, per unit of image area), divided by the number of pixels, times the solid
-    // angle, or the area, that the image plane has as seen from the point. m^-2.
+    float distance;    // from the point to the origin of the camera's ray
+    // Contribution of flux through unit area at the point, facing the camera, to the mean radiance of the image (m^-2):
+    // the importance W_e of the pixel (box filter, per unit of image area), divided by the number of pixels, times the
+    // solid angle (or the area) of the image plane as seen from the point.
     float importance;
 };
 
-// Position on the image plane, both coordinates from -1 to 1 with y upwards, of a point in pixels from the top left corner.
+// Position on the image plane, both coordinates from -1 to 1 with y upwards, of a point in pixels from the top left
+// corner.
 vec2 onImagePlane(DeviceCamera camera, vec2 pixel) {
     vec2 ndc = pixel / vec2(camera.width, camera.height) * 2.0 - 1.0;
     return vec2(ndc.x, -ndc.y);
 }
 
-// The pixel at a position on the image plane. A point beyond an edge is in none.
+// The pixel at a position on the image plane. A position beyond an edge is not visible.
 void findPixel(DeviceCamera camera, vec2 onPlane, inout CameraConnection connection) {
     vec2 position = vec2(0.5 + 0.5 * onPlane.x, 0.5 - 0.5 * onPlane.y) * vec2(camera.width, camera.height);
     bool inside = position.x >= 0.0 && position.y >= 0.0 && position.x < float(int(camera.width)) &&

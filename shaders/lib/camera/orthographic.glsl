@@ -1,4 +1,4 @@
-// Camera whose rays are parallel: they begin on the plane through its position.
+// Camera with parallel rays.
 #ifndef DUOLUX_LIB_CAMERA_ORTHOGRAPHIC_GLSL
 #define DUOLUX_LIB_CAMERA_ORTHOGRAPHIC_GLSL
 

@@ -4,7 +4,8 @@
 
 #include "shaders/lib/camera/camera_types.glsl"
 
-// The ray begins where the scene may: from far away single precision would not tell its triangles apart.
+// The ray begins at startDepth, just before the scene: from a distant origin, single precision could not separate the
+// scene's triangles.
 CameraRay perspectiveRay(DeviceCamera camera, vec2 pixel) {
     vec2 onPlane = onImagePlane(camera, pixel);
     vec3 across = camera.right * onPlane.x + camera.up * onPlane.y;
@@ -22,8 +23,7 @@ CameraConnection connectToPerspective(DeviceCamera camera, vec3 point) {
     c.visible = depth > 0.0;
     findPixel(camera, vec2(dot(fromStart, camera.right) / dot(camera.right, camera.right),
                            dot(fromStart, camera.up) / dot(camera.up, camera.up)) / depth, c);
-    // A patch of the image plane at distance 1 that is seen under the angle of this cosine has cos^3 times its area in
-    // solid angle.
+    // The solid angle of a small patch of the image plane at distance 1 is cos^3 times its area.
     c.importance = 1.0 / (camera.area * cosine * cosine * cosine * c.distance * c.distance);
     return c;
 }
