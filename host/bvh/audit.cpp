@@ -80,7 +80,7 @@ class Audit {
         if (problems_.size() < 32) problems_.push_back(fmt::format(format, std::forward<Args>(args)...));
     }
 
-    /// `ancestors`: the boxes of the children on the way here; every triangle below must lie in all of them.
+    /// `ancestors`: the child boxes on the path from the root; they must all contain every triangle below.
     void visit(std::size_t index, std::uint32_t level, const std::vector<Box>& ancestors) {
         if (index >= bvh_.nodes.size()) return fail("node index {} is out of range", index);
         if (nodeSeen_[index]++ != 0) return;

@@ -16,11 +16,11 @@ namespace duolux {
 namespace {
 
 constexpr std::size_t kMostBins = 256;
-constexpr std::size_t kMostSwept = 16;              // primitives; with more, bins are faster
+constexpr std::size_t kMostSwept = 16;              // primitives; bins are faster for more
 constexpr std::uint32_t kParallelThreshold = 8192;  // smaller subtrees are built by one thread
 
-// Most of the time goes into minima and maxima, which processors find of four floats as fast as of one: x, y,
-// z, and a zero that does not count.
+// The build spends most of its time on minima and maxima, which processors compute for four floats as fast as
+// for one: x, y, z, and an unused zero.
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 
@@ -40,7 +40,7 @@ struct Box4 {
 
 Box4 boxOf(const PrimitiveRef& ref) {
     static_assert(sizeof(PrimitiveRef) == sizeof(Box4) && offsetof(PrimitiveRef, upper) == sizeof(Float4));
-    // A primitive's number taken for a float would be a denormal one, with which processors are slow.
+    // Integers: the bits of a primitive's number, read as a float, would be a denormal, which is slow.
     Int4 lower;
     Float4 upper;
     std::memcpy(&lower, &ref, sizeof lower);
@@ -78,8 +78,8 @@ Extent extentOf(std::span<const PrimitiveRef> refs) {
 }
 
 /// Partitions at the best of all splits between two different centres (MacDonald, Booth, "Heuristics for Ray
-/// Tracing Using Space Subdivision", 1990); for few primitives. Returns the size of the left part, 0 if the
-/// centres are all the same.
+/// Tracing Using Space Subdivision", 1990); for few primitives. Returns the size of the left part, 0 if all
+/// centres are identical.
 std::uint32_t splitBySweep(std::span<PrimitiveRef> refs) {
     const std::size_t count = refs.size();
     std::array<Box4, kMostSwept> boxes;
@@ -91,7 +91,7 @@ std::uint32_t splitBySweep(std::span<PrimitiveRef> refs) {
     for (int axis = 0; axis < 3; ++axis) {
         std::array<float, kMostSwept> centre;
         std::array<std::size_t, kMostSwept> order;
-        for (std::size_t i = 0; i < count; ++i) {  // sorts by insertion
+        for (std::size_t i = 0; i < count; ++i) {  // insertion sort
             const float c = twiceCentre(boxes[i])[axis];
             std::size_t at = i;
             for (; at > 0 && centre[at - 1] > c; --at) {
@@ -126,16 +126,16 @@ std::uint32_t splitBySweep(std::span<PrimitiveRef> refs) {
     return static_cast<std::uint32_t>(leftCount);
 }
 
-/// Two parts of primitives.
 struct Split {
     std::uint32_t leftCount = 0;
     Extent left, right;
 };
 
-/// Walls of a room lie on both sides of any plane through what is in it: they are split off by their size. An
-/// empty left part if that costs as much as `cost` in units of a primitive's box or more.
+/// Separates large primitives from small ones. No plane separates the walls of a room from its contents, but
+/// their size does. The left part is empty unless the split costs less than `cost` (half area times
+/// primitives).
 Split splitBySize(std::span<PrimitiveRef> refs, const Box4& bounds, float cost) {
-    constexpr float kLarge = 0.125f;  // of all primitives' box
+    constexpr float kLarge = 0.125f;  // of the area of all primitives' box
     const auto isSmall = [&](const Box4& box) { return box.halfArea() < kLarge * bounds.halfArea(); };
     Split split;
     for (const PrimitiveRef& ref : refs) {
@@ -157,10 +157,10 @@ Split splitBySize(std::span<PrimitiveRef> refs, const Box4& bounds, float cost) 
     return split;
 }
 
-/// Partitions by binned SAH; an empty left part if the centres cannot be told apart.
+/// Partitions by binned SAH. The left part is empty if the centres cannot be separated.
 Split splitByBins(std::span<PrimitiveRef> refs, const Extent& extent) {
     const Box4& centres = extent.centres;
-    // So many that looking through them takes a small part of the time that filling them takes.
+    // Few enough that evaluating the bins takes only a small fraction of the time for filling them.
     const std::size_t binCount = std::min(32 + refs.size() / 16, kMostBins);
     const Float4 size = centres.upper - centres.lower;
     Float4 scale{};
@@ -265,7 +265,7 @@ class Builder {
     }
 
   private:
-    /// Takes tasks until none is left or in progress.
+    /// Runs tasks until no task is queued or in progress.
     void work() {
         std::unique_lock lock(mutex_);
         for (;;) {

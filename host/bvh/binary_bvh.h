@@ -14,14 +14,14 @@ struct Aabb {
         lower = glm::min(lower, other.lower);
         upper = glm::max(upper, other.upper);
     }
-    /// Half of the surface area: all that the surface-area heuristic needs.
+    /// Half of the surface area, which is sufficient for the surface-area heuristic.
     float halfArea() const {
         const glm::vec3 d = upper - lower;
         return d.x * d.y + d.y * d.z + d.z * d.x;
     }
 };
 
-/// A box around one primitive, and which.
+/// The bounding box of a primitive, and the primitive's number.
 struct PrimitiveRef {
     glm::vec3 lower;
     std::uint32_t primitive;
@@ -29,13 +29,13 @@ struct PrimitiveRef {
     std::uint32_t padding = 0;
 };
 
-/// A binary tree with one primitive per leaf. The subtree of a node over n primitives takes exactly 2n - 1
-/// nodes in depth-first order: its left child is the next node, its right child comes after the left subtree.
+/// A binary tree with one primitive per leaf. The subtree over n primitives has exactly 2n - 1 nodes, in
+/// depth-first order: the left child follows its parent, the right child follows the left subtree.
 struct BinaryBvh {
     struct Node {
         Aabb bounds;
         std::uint32_t count;  ///< primitives below
-        std::uint32_t right;  ///< index of the right child; for a leaf (count == 1) the primitive
+        std::uint32_t right;  ///< index of the right child; in a leaf (count == 1) the primitive
     };
     std::vector<Node> nodes;
 };
@@ -45,8 +45,8 @@ enum class SplitMethod {
     kMedian      ///< by count: the depth is at most ceil(log2(n))
 };
 
-/// Builds on all cores; the tree does not depend on how many there are. `refs` is reordered. At least one
-/// reference.
+/// Builds a tree on all cores; the result does not depend on their number. Reorders `refs`, which must not be
+/// empty.
 BinaryBvh buildBinaryBvh(std::span<PrimitiveRef> refs, SplitMethod method);
 
 }  // namespace duolux

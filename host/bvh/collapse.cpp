@@ -10,9 +10,9 @@ namespace duolux {
 
 namespace {
 
-constexpr std::uint32_t kSmallSubtree = 8192;  // primitives: computed by one thread
+constexpr std::uint32_t kSmallSubtree = 8192;  // primitives; one thread handles a small subtree
 
-/// Without the overflow that single precision has for boxes larger than 10^19.
+/// In double precision: single precision overflows for boxes larger than 10^19.
 double halfAreaInDouble(const Aabb& box) {
     const glm::dvec3 d = glm::dvec3(box.upper) - glm::dvec3(box.lower);
     return d.x * d.y + d.y * d.z + d.z * d.x;
@@ -24,7 +24,7 @@ CollapsePlan::CollapsePlan(const BinaryBvh& bvh) : bvh_(bvh), recordOf_(bvh.node
     const double rootArea = halfAreaInDouble(bvh.nodes[0].bounds);
     inverseRootArea_ = rootArea > 0.0 ? 1.0 / rootArea : 0.0;
     records_.resize(bvh.nodes[0].count - 1);
-    // Small subtrees on all cores, then what is above them.
+    // Small subtrees are computed on all cores, then the nodes above them.
     std::vector<std::uint32_t> above, small, firstRecord;
     std::uint32_t records = 0;
     for (std::uint32_t i = 0; i < bvh.nodes.size();) {
@@ -62,7 +62,7 @@ void CollapsePlan::computeSubtree(std::uint32_t root, std::uint32_t firstRecord)
     const std::uint32_t end = root + 2 * bvh_.nodes[root].count - 1;
     for (std::uint32_t i = root; i < end; ++i)
         recordOf_[i] = bvh_.nodes[i].count > 1 ? firstRecord++ : 0;
-    // Children come after their parent, so backwards is bottom-up.
+    // Children follow their parents, so descending indices are bottom-up.
     for (std::uint32_t i = end; i-- > root;) {
         if (bvh_.nodes[i].count > 1) compute(i);
     }
@@ -79,7 +79,7 @@ void CollapsePlan::compute(std::uint32_t node) {
         leftCost[i] = cost(left, i + 1);
         rightCost[i] = cost(right, i + 1);
     }
-    // Distributing `trees` trees over the two children.
+    // The best distribution of `trees` trees over the two children.
     auto distribute = [&](int trees, std::uint8_t& split) {
         float best = std::numeric_limits<float>::max();
         for (int k = 1; k < trees; ++k) {
@@ -133,7 +133,7 @@ void CollapsePlan::collect(std::uint32_t node, int trees, Children& children) co
 CollapsePlan::Children CollapsePlan::childrenOf(std::uint32_t binaryNode) const {
     Children children;
     const BinaryBvh::Node& n = bvh_.nodes[binaryNode];
-    if (n.count == 1) {  // a tree of one triangle: a root with one leaf
+    if (n.count == 1) {  // the root of a tree with one primitive has one leaf
         children.node[0] = binaryNode;
         children.leaf[0] = true;
         children.count = 1;

@@ -8,19 +8,19 @@
 
 namespace duolux {
 
-/// Which nodes of a binary tree become the nodes and leaves of an 8-wide one: the choice with the least SAH
+/// Chooses the nodes of a binary tree that become the nodes and leaves of an 8-wide tree with the least SAH
 /// cost, by dynamic programming (Ylitie, Karras, Laine 2017, section 3.1).
 class CollapsePlan {
   public:
-    /// Cost of one test of a pair of triangles in units of one node visit.
+    /// Cost of testing one pair of triangles, in node visits.
     static constexpr float kPairCost = 0.4f;
 
     explicit CollapsePlan(const BinaryBvh& bvh);
 
-    /// What a wide node made of `binaryNode` has as children.
+    /// The children of the wide node that `binaryNode` becomes.
     struct Children {
         std::array<std::uint32_t, 8> node{};
-        std::array<bool, 8> leaf{};  ///< else an inner node
+        std::array<bool, 8> leaf{};  ///< false: an inner node
         std::size_t count = 0;
     };
     Children childrenOf(std::uint32_t binaryNode) const;
@@ -36,8 +36,8 @@ class CollapsePlan {
     };
     static constexpr std::uint8_t kLeaf = 1, kInner = 0;
 
-    /// Of a node's box, in units of the root's: the probability that a random ray that meets the root meets
-    /// the node.
+    /// The area of a node's box relative to the root's: the probability that a random ray that intersects the
+    /// root's box intersects the node's.
     float relativeArea(const BinaryBvh::Node& node) const;
     float cost(std::uint32_t node, int trees) const;
     void computeSubtree(std::uint32_t root, std::uint32_t firstRecord);
@@ -45,7 +45,7 @@ class CollapsePlan {
     void collect(std::uint32_t node, int trees, Children& children) const;
 
     const BinaryBvh& bvh_;
-    std::vector<std::uint32_t> recordOf_;  // inner nodes are numbered in order
+    std::vector<std::uint32_t> recordOf_;  // per binary node; records are in the order of the nodes
     std::vector<Record> records_;
     double inverseRootArea_ = 0.0;
     double sahCost_ = 0.0;

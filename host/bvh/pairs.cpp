@@ -18,12 +18,12 @@ Aabb boundsOf(const Geometry& geometry, std::uint32_t triangle) {
     return box;
 }
 
-/// The edges of some triangles, by where they begin.
+/// The edges of a list of triangles, grouped by their first vertex.
 class Edges {
   public:
     struct Edge {
-        std::uint32_t end;    // a position
-        std::uint32_t owner;  // the triangle's place in the list
+        std::uint32_t end;    // position of the second vertex
+        std::uint32_t owner;  // index of the triangle in the list
     };
 
     Edges(const Geometry& geometry, std::span<const std::uint32_t> triangles)
@@ -42,7 +42,7 @@ class Edges {
         }
     }
 
-    /// In the order of the list.
+    /// The edges that start at a position, in the order of the list.
     std::span<const Edge> from(std::uint32_t position) const {
         return {edges_.data() + first_[position], edges_.data() + first_[position + 1]};
     }

@@ -11,8 +11,8 @@
 
 namespace duolux {
 
-/// What the leaves of a tree hold: two triangles with a common edge, which they run along in opposite
-/// directions, or one. (An edge that both have is tested once, and memory has four corners in place of six.)
+/// An entry of a leaf: one triangle, or two that share an edge in opposite directions. The shared edge is
+/// tested once, and four corners are stored instead of six.
 struct TrianglePair {
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
@@ -22,26 +22,26 @@ struct TrianglePair {
     bool operator==(const TrianglePair&) const = default;
 };
 
-/// Sorts triangles (each at most once) into pairs: each takes, of the neighbours that are left, the one with
-/// which it has the smallest box, unless two boxes are smaller than one.
+/// Groups triangles (each listed at most once) into pairs. A triangle is paired with the remaining neighbour
+/// that gives the smallest common box, or stays single if two separate boxes are smaller.
 std::vector<TrianglePair> pairTriangles(const Geometry& geometry, std::span<const std::uint32_t> triangles);
 
 /// Indices of all triangles, in order.
 std::vector<std::uint32_t> allTriangles(const Geometry& geometry);
 
-/// Around each pair; its number is the primitive's.
+/// The bounding box of each pair; the primitive is the index of the pair.
 std::vector<PrimitiveRef> boxesOf(const Geometry& geometry, std::span<const TrianglePair> pairs);
 
-/// A pair without the edge that its triangles share twice.
+/// The corners of a pair, with the shared edge stored once.
 struct PairCorners {
-    /// Indices into Geometry::positions: the triangles have the corners 0 1 2 and 3 2 1, in this order. A
-    /// single triangle's corner 3 is corner 1 again.
+    /// Indices into Geometry::positions. The triangles have the corners 0 1 2 and 3 2 1, in this order. For a
+    /// single triangle, corner 3 equals corner 1.
     std::array<std::uint32_t, 4> positions;
-    /// The number in Geometry::triangles of each triangle's first corner here.
+    /// For each triangle, which of its corners in Geometry::triangles comes first here.
     std::array<std::uint32_t, 2> turns;
 };
 
-/// None if the triangles have no common edge.
+/// Empty if the triangles have no common edge.
 std::optional<PairCorners> cornersOf(const Geometry& geometry, const TrianglePair& pair);
 
 }  // namespace duolux

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kExtension = ".tree";
-constexpr std::string_view kTemporary = ".XXXXXX";  // after it, until a file is complete
+constexpr std::string_view kTemporary = ".XXXXXX";  // suffix of incomplete files
 
 bool isOwnName(std::string_view name) {
     constexpr std::size_t kDigits = 32;
@@ -30,7 +30,7 @@ bool isOwnName(std::string_view name) {
            name.substr(kDigits, kExtension.size()) == kExtension;
 }
 
-/// Nobody else can put a tree there, or see one.
+/// Whether only this user can read and write files in the folder.
 bool isOwnFolder(const fs::path& folder) {
     struct stat status {};
     return ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
@@ -45,7 +45,7 @@ std::optional<TreeCache> TreeCache::ofUser() {
         return fs::path(value != nullptr ? value : "");
     };
     if (!variable("DUOLUX_NO_CACHE").empty()) return {};
-    // Relative paths are to be ignored (XDG Base Directory Specification).
+    // The XDG Base Directory Specification requires that relative paths are ignored.
     if (const fs::path caches = variable("XDG_CACHE_HOME"); caches.is_absolute())
         return TreeCache(caches / "duolux");
     if (const fs::path home = variable("HOME"); home.is_absolute())
@@ -77,7 +77,7 @@ void TreeCache::keep(const fs::path& path, const WideBvh& tree, const TreeKey& k
     std::string temporary = path.string().append(kTemporary);
     const int file = ::mkstemp(temporary.data());
     if (file < 0) return;
-    // Not waited for until it is on the disk: what a power failure leaves of it is built again.
+    // No fsync: a file damaged by a power failure fails its checksum, and the tree is built again.
     const bool written = writeTree(file, tree, key);
     if (::close(file) != 0 || !written || ::rename(temporary.c_str(), path.c_str()) != 0) {
         ::unlink(temporary.c_str());
@@ -94,7 +94,7 @@ void TreeCache::makeRoom() const {
     };
     std::vector<File> files;
     std::uint64_t total = 0;
-    // Others may delete files meanwhile.
+    // Other processes may delete files at the same time.
     std::error_code error;
     for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
         if (!isOwnName(entry->path().filename().string()) || !isTreeFile(entry->path())) continue;

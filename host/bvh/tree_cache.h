@@ -9,24 +9,25 @@
 
 namespace duolux {
 
-/// Keeps built trees on disk, each in a file named by its content. Never fails: without the file, it builds.
-/// Processes may share a folder. Files of other names, or that begin otherwise, are never touched; a folder
-/// that another user owns, or may write to, is not used.
+/// Keeps built trees on disk, each in a file named by a hash of its content. Never fails: if a tree cannot be
+/// read, it is built. Processes may share a folder. Files with other names or another header are never
+/// touched. A folder that another user owns or can write to is not used.
 class TreeCache {
   public:
-    /// Trees of fewer triangles are built about as fast as they are read.
+    /// Building a smaller tree takes about as long as reading it.
     static constexpr std::size_t kFewestTriangles = 1u << 16;
     static constexpr std::uint64_t kMostBytes = 1ull << 30;
 
-    /// `folder` need not exist. `mostBytes`: of all trees; beyond that those not used for longest are
-    /// deleted.
+    /// `folder` need not exist. `mostBytes`: limit on the size of all trees; beyond it, the least recently
+    /// used trees are deleted.
     explicit TreeCache(std::filesystem::path folder, std::uint64_t mostBytes = kMostBytes)
         : folder_(std::move(folder)), mostBytes_(mostBytes) {}
 
-    /// $XDG_CACHE_HOME/duolux, or ~/.cache/duolux; none if DUOLUX_NO_CACHE is set or nobody is at home.
+    /// $XDG_CACHE_HOME/duolux, or ~/.cache/duolux. Empty if DUOLUX_NO_CACHE is set or the user has no home
+    /// folder.
     static std::optional<TreeCache> ofUser();
 
-    /// What buildWideBvh would build.
+    /// The tree of buildWideBvh(geometry, triangles), read from the folder or built.
     WideBvh tree(const Geometry& geometry, std::span<const std::uint32_t> triangles) const;
 
   private:
@@ -38,8 +39,8 @@ class TreeCache {
     std::uint64_t mostBytes_;
 };
 
-/// What buildWideBvh would build, from the user's cache if it is there; of larger scenes kept for the next
-/// time.
+/// The tree of buildWideBvh(geometry, triangles), read from the user's cache if possible. Trees of at least
+/// kFewestTriangles triangles are added to the cache.
 WideBvh cachedWideBvh(const Geometry& geometry, std::span<const std::uint32_t> triangles);
 
 /// Over all triangles.

@@ -17,20 +17,21 @@ namespace duolux {
 
 namespace {
 
-/// Of a file: then come the nodes, then the pairs.
+/// The header of a file. The nodes follow, then the pairs.
 struct Header {
     char magic[8];
     TreeKey key;
     std::uint64_t nodes, pairs;
     double sahCost;
     std::uint64_t depth;
-    TreeKey checksum;  ///< of the rest of the file
+    TreeKey checksum;  ///< of the remaining bytes of the file
 };
 static_assert(sizeof(Header) == 72 && std::is_trivially_copyable_v<Header>);
 
-constexpr char kMagic[8] = {'D', 'u', 'o', 'l', 'u', 'x', 'T', '2'};  // the last: its version
+constexpr char kMagic[8] = {'D', 'u', 'o', 'l',
+                            'u', 'x', 'T', '2'};  // the last character is the format's version
 
-/// XXH3 of 128 bits (Collet 2020): as fast as memory.
+/// XXH3 with 128 bits (Collet 2020), which is as fast as memory.
 class Hash {
   public:
     Hash() { XXH3_128bits_reset(&state_); }
@@ -59,7 +60,7 @@ TreeKey checksumOf(Header header, const WideBvh& tree) {
     return hash.result();
 }
 
-/// Calls read() or write() until all bytes have passed, or none will.
+/// Calls read() or write() until all bytes are transferred or a call fails.
 template <typename Call, typename Byte>
 bool passAll(Call call, int file, Byte* bytes, std::size_t count) {
     while (count > 0) {
@@ -82,7 +83,7 @@ bool readAll(int file, std::span<T> values) {
     return passAll(::read, file, reinterpret_cast<char*>(values.data()), values.size_bytes());
 }
 
-/// Whether the leaves hold each of the triangles once, and neighbours in pairs.
+/// Whether the leaves hold each of the triangles exactly once, and every pair has a common edge.
 bool holdsJust(const WideBvh& tree, const Geometry& geometry, std::span<const std::uint32_t> triangles) {
     const std::uint32_t most = *std::max_element(triangles.begin(), triangles.end());
     std::vector<char> wanted(std::size_t{most} + 1, 0);
@@ -102,7 +103,8 @@ bool holdsJust(const WideBvh& tree, const Geometry& geometry, std::span<const st
     return found == triangles.size();
 }
 
-/// Whether a traversal ends, and stays within the arrays and its stack. Children come after their parents.
+/// Whether a traversal terminates and stays within the arrays and its stack. Children must follow their
+/// parents.
 bool isTree(const WideBvh& tree) {
     const std::size_t nodes = tree.nodes.size();
     std::vector<std::uint8_t> level(nodes, 0);
@@ -136,11 +138,11 @@ bool isTree(const WideBvh& tree) {
     return deepest == tree.depth && std::find(entrySeen.begin(), entrySeen.end(), 0) == entrySeen.end();
 }
 
-/// A file that is closed at the end of its scope.
+/// Closes the file at the end of its scope.
 struct OpenFile {
     int descriptor = -1;
 
-    /// Opens a regular file for reading. What is none must not keep this waiting.
+    /// Opens a regular file for reading. O_NONBLOCK: opening a pipe or a device must not block.
     explicit OpenFile(const std::filesystem::path& path)
         : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW)) {}
     ~OpenFile() {

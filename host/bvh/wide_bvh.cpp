@@ -18,12 +18,12 @@ namespace duolux {
 
 namespace {
 
-// Boxes are widened by this part of a quantisation step, so that rounding in the slab test (relative to the
-// node's size) cannot make a ray miss a box whose face coincides with a step.
+// Boxes are enlarged by this fraction of a quantisation step, so that rounding in the slab test (relative to
+// the node's size) cannot make a ray miss a box whose face coincides with a step.
 constexpr float kQuantisationMargin = 1.0f / 32.0f;
 
-/// Places children in slots so that the sum over children of centre . direction(slot) is large: greedy
-/// assignment.
+/// Assigns children to slots greedily, so that the sum of centre . direction(slot) over the children is
+/// large.
 std::array<int, 8> assignSlots(std::span<const Aabb> children, const Aabb& parent) {
     std::array<int, 8> slotOf{};
     float score[8][8];
@@ -59,22 +59,22 @@ std::array<int, 8> assignSlots(std::span<const Aabb> children, const Aabb& paren
     return slotOf;
 }
 
-/// A part of the wide tree that is written apart from what is above it.
+/// A subtree of the wide tree that is emitted separately from the nodes above it.
 struct Branch {
     std::uint32_t binaryNode;  // its root
-    std::uint32_t wideNode;    // the place for its root, which is left empty
+    std::uint32_t wideNode;    // index reserved for its root
     std::uint32_t level;       // of its root
-    // How much of what is above comes before its other nodes and its pairs.
+    // Numbers of nodes and pairs of the top tree that precede the branch's other nodes and its pairs.
     std::uint32_t nodesBefore, pairsBefore;
 };
 
-/// Writes a wide tree depth first, but for the inner children of a node, which are consecutive.
+/// Emits a wide tree in depth-first order, except that the inner children of a node are consecutive.
 class Emitter {
   public:
     Emitter(const BinaryBvh& binary, const CollapsePlan& plan, std::span<const TrianglePair> pairs)
         : binary_(binary), plan_(plan), pairs_(pairs) {}
 
-    /// The tree below a binary node. Subtrees of at most `branchPairs` become branches.
+    /// Emits the tree below a binary node. Subtrees of at most `branchPairs` pairs become branches.
     WideBvh emit(std::uint32_t root, std::uint32_t branchPairs = 0) {
         struct Work {
             std::uint32_t binaryNode, wideNode, level;
@@ -99,11 +99,11 @@ class Emitter {
         return std::move(out_);
     }
 
-    /// In the order in which one emission of everything would come to them.
+    /// In the order in which a single emission of the whole tree would reach them.
     const std::vector<Branch>& branches() const { return branches_; }
 
   private:
-    /// The binary nodes of a wide node's inner children in order of slots.
+    /// The binary nodes of a wide node's inner children, by slot.
     struct Inner {
         std::array<std::uint32_t, 8> binaryNode{};
         std::uint32_t count = 0;
@@ -151,7 +151,7 @@ class Emitter {
         const double margin = static_cast<double>(kQuantisationMargin);
         const double lower = static_cast<double>(bounds.lower[axis]);
         const double upper = static_cast<double>(bounds.upper[axis]);
-        // The smallest step with which all fits into 0..255, the origin rounded down to a float included.
+        // The smallest step with which all offsets from the origin (rounded down to a float) fit into 0..255.
         int exponent = 0;
         std::frexp(std::max(upper - lower, 1e-36) / (255.0 - 4.0 * margin), &exponent);
         exponent = std::clamp(exponent + 127, 1, 254);
@@ -183,7 +183,7 @@ class Emitter {
     }
 
     std::uint32_t appendPairs(std::uint32_t binaryNode) {
-        // The leaves of a subtree of n primitives are among the 2n - 1 nodes from its root on.
+        // A subtree over n primitives occupies the 2n - 1 nodes that start at its root.
         const std::uint32_t count = binary_.nodes[binaryNode].count;
         for (std::uint32_t i = binaryNode; i < binaryNode + 2 * count - 1; ++i) {
             if (binary_.nodes[i].count == 1) out_.pairs.push_back(pairs_[binary_.nodes[i].right]);
@@ -198,8 +198,8 @@ class Emitter {
     std::vector<Branch> branches_;
 };
 
-/// Puts branches into the tree above them: the result is that of emitting all at once, but for indices of
-/// nodes that have no inner children or no pairs.
+/// Inserts branches into the tree above them. The result equals that of a single emission, except for
+/// childBase and pairBase of nodes without inner children or pairs.
 class Grafter {
   public:
     Grafter(const WideBvh& top, const std::vector<Branch>& branches, const std::vector<WideBvh>& parts)
@@ -245,7 +245,7 @@ class Grafter {
         std::copy(parts_[b].pairs.begin(), parts_[b].pairs.end(), out.pairs.begin() + firstPair);
     }
 
-    /// Where an index into the top goes: behind the branches that come before it.
+    /// The final index of a node of the top tree: it follows the branches that precede it.
     std::uint32_t nodePlace(std::uint32_t i) const {
         return i + nodesOf_[branchesUpTo(i, &Branch::nodesBefore)];
     }
@@ -261,7 +261,7 @@ class Grafter {
     const WideBvh& top_;
     const std::vector<Branch>& branches_;
     const std::vector<WideBvh>& parts_;
-    std::vector<std::uint32_t> nodesOf_, pairsOf_;  // of the branches before, but for their roots
+    std::vector<std::uint32_t> nodesOf_, pairsOf_;  // totals of the preceding branches, without their roots
 };
 
 WideBvh emit(const BinaryBvh& binary, const CollapsePlan& plan, std::span<const TrianglePair> pairs) {
@@ -293,11 +293,10 @@ WideBvh build(const Geometry& geometry, std::span<const std::uint32_t> triangles
 WideBvh buildWideBvh(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
     assert(!triangles.empty());
     WideBvh wide = build(geometry, triangles, SplitMethod::kBinnedSah);
-    // Only contrived input makes the SAH build a chain this long; a balanced tree is then the better one,
-    // too.
+    // The SAH builds such a deep tree only for contrived input, for which a balanced tree is also faster.
     if (wide.depth > shared::kMaxTreeDepth) wide = build(geometry, triangles, SplitMethod::kMedian);
     if (wide.depth > shared::kMaxTreeDepth) {
-        throw MachineError(fmt::format("{} triangles make a tree of more than {} levels", triangles.size(),
+        throw MachineError(fmt::format("{} triangles need a tree of more than {} levels", triangles.size(),
                                        shared::kMaxTreeDepth));
     }
     return wide;
