@@ -10,33 +10,32 @@
 
 namespace duolux {
 
-/// The driver's own tree over triangles, for ray queries in kernels. Only on a device with
-/// DeviceInfo::rayQueries.
+/// The driver's own tree over triangles, for ray queries in kernels. Requires DeviceInfo::rayQueries.
 class AccelerationStructure {
   public:
-    /// How the buffer of the vertices must have been made.
+    /// The usage flags with which the vertex buffer must have been created.
     static constexpr vk::BufferUsageFlags kInputUse =
         vk::BufferUsageFlagBits::eShaderDeviceAddress |
         vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR;
 
-    /// Consecutive vertices of the buffer, and triangles among them (at least one). Each part becomes an
-    /// instance, in order, with a mask of its own.
+    /// A range of consecutive vertices, and the number of triangles in it (at least one). Each part becomes
+    /// an instance, in order, with its own mask.
     struct Part {
         std::uint32_t firstVertex, vertices, triangles;
         std::uint8_t mask;
     };
 
-    /// `vertices`: of 16 bytes, which begin with the position as three floats. `indices`: of each triangle's
-    /// corners, from the part's first vertex on; all parts use them from the start. Throws MachineError if
-    /// the driver fails, or memory or limits do not suffice.
+    /// `vertices`: 16 bytes each, which begin with the position as three floats. `indices`: three per
+    /// triangle, relative to the part's first vertex; every part uses them from the start. Throws
+    /// MachineError if the driver fails, or if memory or the device's limits do not suffice.
     AccelerationStructure(const Device& device, const Buffer& vertices,
                           std::span<const std::uint32_t> indices, std::span<const Part> parts);
 
     vk::AccelerationStructureKHR handle() const { return *top_.structure; }
-    std::uint64_t allocated() const;  ///< bytes of device memory, without the vertices
+    std::uint64_t allocated() const;  ///< bytes of device memory, excluding the vertices
 
   private:
-    /// The tree of a part, or the one over all of these.
+    /// The tree of a part (bottom level), or the tree over all parts (top level).
     struct Level {
         Buffer memory;
         vk::raii::AccelerationStructureKHR structure;

@@ -29,8 +29,7 @@ vk::BufferUsageFlags usageOf(BufferUse use) {
     return {};
 }
 
-/// Index of a memory type with all of `wanted`, preferring one with `preferred`, too; nothing if there is
-/// none.
+/// Index of a memory type that has all of `wanted` and, if possible, `preferred`; empty if there is none.
 std::optional<std::uint32_t> memoryType(const vk::PhysicalDeviceMemoryProperties& memory,
                                         std::uint32_t allowed, vk::MemoryPropertyFlags wanted,
                                         vk::MemoryPropertyFlags preferred) {
@@ -44,8 +43,8 @@ std::optional<std::uint32_t> memoryType(const vk::PhysicalDeviceMemoryProperties
 
 void checkLimits(const DeviceInfo& info, BufferUse use, std::uint64_t size, std::string_view name) {
     const auto fail = [&](std::uint64_t limit) {
-        throw MachineError(fmt::format("{} ({}): {} take {} bytes, more than the {} that the device can bind",
-                                       info.name, info.driver, name, size, limit));
+        throw MachineError(fmt::format("{} ({}): {} take {} bytes; the device can bind at most {}", info.name,
+                                       info.driver, name, size, limit));
     };
     if (use == BufferUse::kTexels && size / kTexelBytes > info.maxTexelBufferElements) {
         fail(info.maxTexelBufferElements * kTexelBytes);
@@ -53,8 +52,8 @@ void checkLimits(const DeviceInfo& info, BufferUse use, std::uint64_t size, std:
     if (use == BufferUse::kStorage && size > info.maxStorageBufferRange) fail(info.maxStorageBufferRange);
 }
 
-/// The memory of a software driver is this process's own: asks for huge pages, or random reads of a large
-/// tree wait for the translation of addresses. It is advice; where it is not taken, all works as before.
+/// Requests huge pages. A software driver uses the memory of this process, and with small pages random reads
+/// of a large tree wait for address translation. The kernel may ignore the request.
 void adviseHugePages(void* begin, std::uint64_t size) {
     constexpr std::uintptr_t kHugePage = std::uintptr_t{2} << 20;
     const auto first = (reinterpret_cast<std::uintptr_t>(begin) + kHugePage - 1) / kHugePage * kHugePage;
@@ -67,7 +66,8 @@ void adviseHugePages(void* begin, std::uint64_t size) {
 Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
                Memory memory, std::string_view name)
     : device_(&device.handle()), use_(use), size_(std::max<std::uint64_t>((size + 15) / 16 * 16, 16)) {
-    if (memory != Memory::kStaging) checkLimits(device.info(), use, size_, name);  // a copy is never bound
+    if (memory != Memory::kStaging)
+        checkLimits(device.info(), use, size_, name);  // staging buffers are never bound
     try {
         buffer_ = vk::raii::Buffer(*device_, vk::BufferCreateInfo({}, size_, usageOf(use) | extra));
         const vk::MemoryRequirements requirements = buffer_.getMemoryRequirements();
@@ -140,7 +140,7 @@ void Buffer::writeStaged(const Device& device, std::span<const std::byte> bytes,
     staging.write(bytes);
     runOnce(device, fmt::format("uploading {}", name), [&](const vk::raii::CommandBuffer& commands) {
         commands.copyBuffer(staging.handle(), handle(), vk::BufferCopy(0, 0, bytes.size()));
-        // A fence makes what was copied available; this makes it visible to all that will read it.
+        // The fence makes the copied data available; the barrier makes it visible to all later reads.
         commands.pipelineBarrier(
             vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eAllCommands, {},
             vk::MemoryBarrier(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eMemoryRead), {}, {});

@@ -12,23 +12,22 @@ namespace duolux {
 
 /// How a buffer is bound in kernels.
 enum class BufferUse : std::uint8_t {
-    kTexels,  ///< uimageBuffer, rgba32ui: lavapipe reads these in line, but calls a function for samplers
+    kTexels,  ///< uimageBuffer, rgba32ui: lavapipe inlines these reads, but calls a function for samplers
     kUniform,
     kStorage,
     kUnbound  ///< not at all
 };
 
-/// A buffer with memory of its own. Never empty: a size of 0 is rounded up.
+/// A buffer with its own memory. Never empty: a size of 0 is rounded up.
 class Buffer {
   public:
-    /// Written by the host once, through a staging buffer where the device's memory is not visible to the
-    /// host. `name` is for error messages; `extra`: uses beyond `use`. Throws MachineError if the device's
-    /// limits or memory do not suffice.
+    /// Creates a buffer that the host writes once, through a staging buffer if the device's memory is not
+    /// visible to the host. `name` is for error messages; `extra`: uses in addition to `use`. Throws
+    /// MachineError if the device's limits or memory do not suffice.
     static Buffer upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                          std::string_view name, vk::BufferUsageFlags extra = {});
 
-    /// Through a staging buffer in any case, so that tests reach what upload() does where memory is not
-    /// visible.
+    /// Like upload(), but always through a staging buffer, so that tests cover this case on every device.
     static Buffer uploadStaged(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                                std::string_view name);
 
@@ -38,11 +37,12 @@ class Buffer {
         return upload(device, use, std::as_bytes(items), name, extra);
     }
 
-    /// Written and read by the device alone.
+    /// Creates a buffer that only the device reads and writes.
     static Buffer device(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
                          std::string_view name);
 
-    /// Written by the device, read by the host through mapped(); `extra`: uses beyond that in kernels.
+    /// Creates a buffer that the device writes and the host reads through mapped(); `extra`: uses in addition
+    /// to that in kernels.
     static Buffer readback(const Device& device, std::uint64_t size, std::string_view name,
                            vk::BufferUsageFlags extra = {});
 
@@ -51,10 +51,10 @@ class Buffer {
     std::uint64_t size() const { return size_; }
     std::uint64_t allocated() const { return allocated_; }  ///< bytes of device memory
     BufferUse use() const { return use_; }
-    /// In the device's memory; only with the extra use eShaderDeviceAddress.
+    /// Device address; requires the extra use eShaderDeviceAddress.
     vk::DeviceAddress address() const;
 
-    /// The contents of a readback buffer; valid after invalidate() once the device is done.
+    /// The contents of a readback buffer; valid after invalidate(), once the device has finished.
     const std::byte* mapped() const { return static_cast<const std::byte*>(mapped_); }
     void invalidate() const;
 

@@ -31,7 +31,7 @@ CommandSlot::~CommandSlot() {
     try {
         static_cast<void>(device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX));
     } catch (const vk::SystemError&) {
-        // The device is lost: nothing is in flight any more.
+        // The device is lost, so nothing is in flight any more.
     }
 }
 
@@ -43,12 +43,12 @@ void CommandSlot::submit(std::string_view stage,
         const bool timed = device_->timestampPeriod() > 0.0;
         if (timed) {
             commands_.resetQueryPool(*timestamps_, 0, 2);
-            // Not before the dispatches submitted earlier are done.
+            // The timestamp is written after all dispatches submitted earlier have finished.
             commands_.writeTimestamp(vk::PipelineStageFlagBits::eComputeShader, *timestamps_, 0);
         }
         record(commands_);
         if (timed) commands_.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
-        // What the device wrote becomes visible to the host, and to what is submitted later.
+        // Makes the device's writes visible to the host and to later submissions.
         using Access = vk::AccessFlagBits;
         const vk::MemoryBarrier written(Access::eMemoryWrite,
                                         Access::eHostRead | Access::eMemoryRead | Access::eMemoryWrite);
@@ -68,7 +68,7 @@ void CommandSlot::submit(std::string_view stage,
 
 double CommandSlot::wait(std::string_view stage) {
     try {
-        // Without a time limit, whatever is not success is thrown.
+        // Without a time limit, every result other than success is thrown as an exception.
         static_cast<void>(device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX));
         inFlight_ = false;
         if (device_->timestampPeriod() == 0.0) return 0.0;

@@ -8,20 +8,20 @@
 
 namespace duolux {
 
-/// A command buffer that is recorded, submitted and waited for, again and again; with timestamps around what
-/// it runs.
+/// A reusable command buffer that is recorded, submitted and waited for. Timestamps measure its execution.
 class CommandSlot {
   public:
     explicit CommandSlot(const Device& device);
-    /// Waits for what is still in flight: it uses resources that are about to go, too.
+    /// Waits for commands in flight, because they use resources that are about to be destroyed.
     ~CommandSlot();
     CommandSlot(const CommandSlot&) = delete;
     CommandSlot& operator=(const CommandSlot&) = delete;
 
-    /// Records and submits. The slot must not be in flight. `stage` is for errors.
+    /// Records and submits. The slot must not be in flight. `stage` is for error messages.
     void submit(std::string_view stage, const std::function<void(const vk::raii::CommandBuffer&)>& record);
 
-    /// Waits until the device is done, and returns its seconds (0 without timestamps). `stage` is for errors.
+    /// Waits until the device has finished. Returns the device's time in seconds (0 without timestamps).
+    /// `stage` is for error messages.
     double wait(std::string_view stage);
 
   private:
@@ -33,7 +33,7 @@ class CommandSlot {
     bool inFlight_ = false;
 };
 
-/// Records, submits and waits once.
+/// Records and submits commands once, and waits for them.
 void runOnce(const Device& device, std::string_view stage,
              const std::function<void(const vk::raii::CommandBuffer&)>& record);
 

@@ -42,7 +42,7 @@ bool hasRayQueries(const vk::raii::PhysicalDevice& physical) {
            features.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;
 }
 
-/// The features the kernels need, as far as the device has them.
+/// The features that the kernels need and the device supports.
 std::string missingFeature(const vk::raii::PhysicalDevice& physical) {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
     if (properties.apiVersion < VK_API_VERSION_1_2) return "Vulkan 1.2";
@@ -141,7 +141,7 @@ std::uint32_t computeFamily(const vk::raii::PhysicalDevice& physical) {
     for (std::uint32_t i = 0; i < families.size(); ++i) {
         if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return i;
     }
-    return 0;  // not reached: missingFeature has looked
+    return 0;  // not reached: missingFeature has checked this
 }
 
 }  // namespace
@@ -183,8 +183,8 @@ const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::stri
         there += fmt::format("{}{} \"{}\"", there.empty() ? "" : ", ", device.index, device.name);
         if (!device.unusable.empty()) there += fmt::format(" (lacks {})", device.unusable);
     }
-    if (selector.empty()) throw MachineError(fmt::format("no usable Vulkan device; there is {}", there));
-    throw UsageError(fmt::format("--device {}: no such usable device; there is {}", selector, there));
+    if (selector.empty()) throw MachineError(fmt::format("no usable Vulkan device; found {}", there));
+    throw UsageError(fmt::format("--device {}: no such usable device; found {}", selector, there));
 }
 
 MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error) {

@@ -16,7 +16,7 @@ inline const char* nameOf(DeviceKind kind) {
     return kind == DeviceKind::kCpu ? "cpu" : "gpu";
 }
 
-/// What `duolux devices` shows of one physical device.
+/// Properties of a physical device, as `duolux devices` lists them.
 struct DeviceInfo {
     std::uint32_t index = 0;  ///< in the loader's order
     std::string name;
@@ -27,21 +27,21 @@ struct DeviceInfo {
     std::uint64_t maxStorageBufferRange = 0;  ///< bytes
     std::uint64_t maxTexelBufferElements = 0;
     std::uint32_t maxWorkgroupSize = 0;  ///< invocations of a work group along x
-    bool int64Atomics = false;           ///< 64-bit integers and atomics on them in storage buffers
-    bool rayQueries = false;             ///< acceleration structures, and queries of them in kernels
+    bool int64Atomics = false;           ///< 64-bit integers, and atomics on them in storage buffers
+    bool rayQueries = false;             ///< acceleration structures and ray queries in kernels
     std::uint64_t memoryBytes = 0;       ///< of the largest device-local heap
-    std::string unusable;                ///< empty, or which required feature is missing
+    std::string unusable;                ///< the missing required feature; empty: the device is usable
 };
 
 /// All physical devices, usable or not. Throws NoDriverError if there is no Vulkan loader or driver.
 std::vector<DeviceInfo> listDevices();
 
-/// The device chosen by `selector`: "" (a usable GPU if there is one, else the software driver), "cpu",
-/// "gpu", an index, or a part of a name (any case). Throws UsageError naming what is there if nothing
+/// The device chosen by `selector`: "" (a usable GPU if there is one, otherwise the software driver), "cpu",
+/// "gpu", an index, or part of a name (case-insensitive). Throws UsageError, which lists the devices, if none
 /// matches.
 const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::string_view selector);
 
-/// What to throw where a call to a device has failed; `stage`: in which stage, as in "tracing paths".
+/// The exception for a failed call to a device. `stage`: what failed, for example "tracing paths".
 MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error);
 
 /// A logical device with one compute queue.

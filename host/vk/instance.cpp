@@ -15,8 +15,7 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-/// What the loader and the drivers take of the address space when all of Debian's drivers are loaded, and
-/// some to work with.
+/// Address space for the loader with all of Debian's drivers, plus some working memory.
 constexpr std::uint64_t kAddressSpace = std::uint64_t{1} << 30;  // bytes
 
 vk::raii::Context makeContext() {
@@ -47,7 +46,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(VkDebugUtilsMessageTypeFlagsEXT
 struct Instance::Log {
     mutable std::mutex mutex;
     std::vector<std::string> validation;
-    std::string loaderError, loaderWarning;  // the first of each: what follows says that there is no driver
+    std::string loaderError, loaderWarning;  // the first of each; later ones only say that no driver loaded
 
     static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                   VkDebugUtilsMessageTypeFlagsEXT types,
@@ -65,14 +64,14 @@ struct Instance::Log {
         return VK_FALSE;
     }
 
-    /// Why the loader has found nothing that works; empty if it does not say more than that.
+    /// Why the loader found no working driver; empty if the loader gives no reason.
     std::string loaderProblem() const {
         const std::lock_guard lock(mutex);
         const bool saysWhy = !loaderError.empty() && loaderError.find("no drivers") == std::string::npos;
         return saysWhy ? loaderError : loaderWarning;
     }
 
-    /// `result`: of the call that failed.
+    /// `result`: the result of the failed call.
     NoDriverError failure(vk::Result result) const {
         const std::string problem = loaderProblem();
         const std::string because = problem.empty() ? "" : fmt::format(" ({})", problem);
@@ -114,7 +113,7 @@ Instance::Instance(Validation validation)
     const vk::ApplicationInfo application("duolux", 0, "duolux", 0, VK_API_VERSION_1_2);
     std::vector<const char*> layers;
     std::vector<const char*> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};  // the loader's own
-    // While it creates the instance, the loader tells why a driver cannot be used.
+    // The loader reports why a driver cannot be used while it creates the instance.
     const VkDebugUtilsMessengerCreateInfoEXT loader =
         messengerInfo(VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT, &Log::receive, log_.get());
     vk::InstanceCreateInfo create({}, &application);

@@ -21,7 +21,7 @@ class NoDriverError : public MachineError {
     using MachineError::MachineError;
 };
 
-/// The Vulkan loader with all drivers that it can load.
+/// The Vulkan loader with all drivers it can load.
 class Instance {
   public:
     /// Throws NoDriverError.

@@ -12,8 +12,8 @@
 
 namespace duolux {
 
-/// What a kernel binds: buffers by binding number, all in set 0, or one acceleration structure in place of a
-/// buffer. Neighbours in a list with the same number are the elements of an array.
+/// A buffer or an acceleration structure that a kernel binds, all in set 0. Consecutive entries of a list
+/// with the same number are the elements of an array.
 struct Binding {
     std::uint32_t binding;
     const Buffer* buffer;
@@ -26,7 +26,7 @@ struct Specialization {
     std::uint32_t value;
 };
 
-/// A compute pipeline with its descriptor set. What it binds must outlive it.
+/// A compute pipeline with its descriptor set. The bound resources must outlive it.
 class Kernel {
   public:
     /// `name` is for error messages. Throws MachineError if the driver fails to compile it.
