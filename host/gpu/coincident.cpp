@@ -18,14 +18,14 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// dot(normal, x) = offset; the normal is unit, and on one side of a direction that no surface is made for,
-/// so that both windings have one plane.
+/// dot(normal, x) = offset. The unit normal is on a fixed side of an arbitrary direction, so that both
+/// windings of a triangle have the same plane.
 struct Plane {
     glm::dvec3 normal;
     double offset;
 };
 
-/// Triangles in planes that are the same but for rounding have one of them in common.
+/// Triangles whose planes are equal within rounding have at least one key in common.
 using PlaneKeys = std::array<std::uint64_t, 2>;
 
 class Finder {
@@ -76,7 +76,8 @@ class Finder {
         return {normal, glm::dot(normal, (c[0] + c[1] + c[2]) / 3.0 - centre_)};
     }
 
-    /// Two grids, of which one is moved by half a cell: what rounding parts in one is together in the other.
+    /// Keys in two grids that are offset by half a cell: planes that rounding separates in one grid are in
+    /// the same cell of the other.
     PlaneKeys keysOf(std::uint32_t triangle) const {
         const Plane plane = planeOf(cornersOf(triangle));
         constexpr double kCells = 4096.0;
@@ -95,8 +96,8 @@ class Finder {
         return out;
     }
 
-    /// Those that share a key with another, in the order of the keys. Most triangles of curved surfaces share
-    /// none, which a table of counts tells without sorting them.
+    /// The triangles that share a key with another one, in the order of the keys. A table of counts excludes
+    /// most triangles of curved surfaces before sorting.
     std::vector<Candidate> findCandidates() const {
         const std::size_t slots = std::bit_ceil(std::max<std::size_t>(8 * count_, 1024));
         std::vector<std::uint8_t> used(slots);
@@ -151,7 +152,8 @@ class Finder {
         return flat;
     }
 
-    /// Compares the triangles of one plane, many of them by the cells of a grid that they lie in.
+    /// Compares the triangles of one plane with each other; if there are many, only within the cells of a
+    /// grid.
     void comparePlane(std::span<const Candidate> plane) {
         constexpr std::size_t kFew = 16;
         const std::vector<Flat> flat = flatten(plane);
@@ -221,7 +223,8 @@ class Finder {
         parents_[std::max(rootA, rootB)] = std::min(rootA, rootB);
     }
 
-    /// No line through an edge parts them, but for what rounding may make of neighbours.
+    /// Separating axis test: whether no line through an edge separates the triangles. The tolerance excludes
+    /// neighbours that overlap only through rounding.
     bool overlap(const Flat& a, const Flat& b) const {
         constexpr double kLeast = 1e-3;  // of the narrower one
         for (const Flat* edges : {&a, &b}) {
@@ -251,7 +254,7 @@ class Finder {
         return triangle;
     }
 
-    /// The largest of each group, the first of equals.
+    /// The largest triangle of each group; the first of equally large ones.
     std::vector<std::uint32_t> representatives() {
         std::vector<std::uint32_t> largest(count_);
         std::iota(largest.begin(), largest.end(), 0u);
@@ -273,7 +276,7 @@ class Finder {
     std::size_t count_;
     glm::dvec3 centre_{0.0};
     double size_ = 0.0;
-    double rounding_ = 0.0;  // of a coordinate
+    double rounding_ = 0.0;  // rounding error of a coordinate
     std::vector<std::uint32_t> parents_;
     bool any_ = false;
 };

@@ -7,12 +7,12 @@
 
 namespace duolux {
 
-/// The groups of triangles that lie in one plane and cover the same area of it, at least in part: two faces
-/// of a lamp, a decal, a lamp in the plane of a ceiling. Of each triangle the one whose plane its group
-/// shares, the largest; the triangle itself if it has no group. Empty if there are no groups at all.
+/// Finds groups of triangles that lie in one plane and overlap at least in part: two faces of a lamp, a
+/// decal, a lamp in the plane of a ceiling. Returns for each triangle the largest triangle of its group,
+/// whose plane the group shares, or the triangle itself if it has no group. Empty if there are no groups.
 ///
-/// What counts as one plane: corners of the smaller triangle within some rounding errors of single precision
-/// of the plane of the larger one. Neighbours that share an edge or a corner do not cover the same area.
+/// Triangles lie in one plane if the corners of the smaller one are within a few single-precision rounding
+/// errors of the plane of the larger one. Neighbours that only share an edge or a corner do not overlap.
 std::vector<std::uint32_t> coincidentGroups(const Geometry& geometry);
 
 }  // namespace duolux

@@ -7,11 +7,11 @@
 
 namespace duolux {
 
-/// A camera's record, for a picture of width x height pixels of a scene with these bounds.
+/// The record of a camera for an image of width x height pixels of a scene with these bounds.
 shared::DeviceCamera deviceCamera(const Camera& camera, std::uint32_t width, std::uint32_t height,
                                   const Bounds& bounds);
 
-/// Its kind, one of shared::kCamera...: a constant of the kernels.
+/// The kind of camera, one of shared::kCamera..., as a specialisation constant of the kernels.
 std::uint32_t deviceKind(CameraType type);
 
 }  // namespace duolux

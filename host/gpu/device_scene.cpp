@@ -51,7 +51,7 @@ shared::DevicePair devicePair(const Geometry& geometry, const SurfacePlanes& pla
             position(2), materialFlags(geometry, pair.first), position(3), secondRank};
 }
 
-/// `turn`: the corner that comes first.
+/// `turn`: the index of the corner that comes first.
 shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t triangle, std::uint32_t turn) {
     if (triangle == TrianglePair::kNone || !isSmooth(geometry, triangle)) return {};
     const glm::uvec3 index = geometry.normalIndices[triangle];
@@ -61,7 +61,7 @@ shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t tria
     return {{normal(0), normal(1), normal(2)}, 0};
 }
 
-/// The tree over all triangles, and behind it the one over emitters with copies of them.
+/// The tree over all triangles, followed by the tree over copies of the emitters.
 struct Trees {
     std::vector<shared::WideNode> nodes;
     std::vector<TrianglePair> pairs;  // in the order of the leaves
@@ -72,7 +72,7 @@ struct Trees {
     }
 };
 
-/// What the driver is to build trees over: all triangles, and behind them copies of the emitters.
+/// The input of the driver's trees: all triangles, followed by copies of the emitters.
 Trees listTriangles(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
     Trees trees;
     trees.pairs = pairTriangles(geometry, allTriangles(geometry));
@@ -92,7 +92,7 @@ AccelerationStructure buildStructure(const Device& device, const Buffer& buffer,
     };
     std::vector<AccelerationStructure::Part> parts{part(0, count - emitters, shared::kMaskAll)};
     if (emitters > 0) parts.push_back(part(count - emitters, emitters, shared::kMaskEmitters));
-    // Emitters may have more pairs among themselves than with all others.
+    // The emitters alone may have more pairs than the rest of the scene.
     const std::uint32_t most = std::max(count - emitters, emitters);
     std::vector<std::uint32_t> indices;
     indices.reserve(std::size_t{6} * most);
@@ -119,7 +119,7 @@ Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitte
     return trees;
 }
 
-/// Of each triangle of the scene its index among the device's, or that of a copy.
+/// For each triangle of the scene, its index in device memory (or that of a copy).
 std::vector<std::uint32_t> deviceTriangles(const Trees& trees, std::size_t count) {
     std::vector<std::uint32_t> places(count);
     for (std::uint32_t i = 0; i < trees.pairs.size(); ++i) {
@@ -146,7 +146,7 @@ Bounds widenedBounds(const Geometry& geometry, std::span<const std::uint32_t> tr
             bounds.upper = first ? p : glm::max(bounds.upper, p);
         }
     }
-    constexpr float kMargin = 1e-3f;  // of the bounds' diagonal and of the coordinates
+    constexpr float kMargin = 1e-3f;  // relative to the diagonal of the bounds and to the coordinates
     const glm::vec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
     const glm::vec3 margin = kMargin * (glm::vec3(glm::length(bounds.upper - bounds.lower)) + largest);
     return {bounds.lower - margin, bounds.upper + margin};
@@ -208,7 +208,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
     for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
         if (scene.materials[geometry.materials[i]].emission.any()) emitters.push_back(i);
     }
-    // Only rays that nothing stops look for emitters in a tree of their own.
+    // The separate tree over emitters serves only rays that no surface blocks.
     const bool lightPaths = scene.render.integrator == Integrator::kLight;
     const bool ownTree = traits.transmittance == shared::kTransmittanceIdentity && !lightPaths;
     const std::vector<std::uint32_t> inOwnTree = ownTree ? emitters : std::vector<std::uint32_t>{};

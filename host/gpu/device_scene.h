@@ -14,7 +14,7 @@
 
 namespace duolux {
 
-/// More emitting triangles than this are sampled.
+/// Scenes with more emitting triangles use next-event estimation instead of the closed form.
 inline constexpr std::size_t kMostClosedFormLights = 16;
 
 /// A scene in device memory, in the records of shaders/shared.
@@ -23,13 +23,13 @@ struct DeviceScene {
     Tuning tuning;
     bool hasEmitters = false;  ///< some triangle emits; then there is a tree over the emitting ones
     bool hasSmoothNormals = false;
-    bool hasPlanes = false;  ///< distances are found by planes, see SurfacePlanes
-    /// Direct light has a closed form: nothing can be between a surface and an emitter, normals are flat, and
-    /// the emitters are so few that a formula for each costs no more than sampling one.
+    bool hasPlanes = false;  ///< distances are computed from stored planes, see SurfacePlanes
+    /// Direct light has a closed form: nothing can block an emitter, normals are flat, and there are so few
+    /// emitters that evaluating the formula for each costs no more than sampling one.
     bool closedFormApplies = false;
     std::uint32_t lightCount = 0;    ///< triangles that next-event estimation samples
     std::uint32_t emitterRoot = 0;   ///< as in shared::PathParams
-    Bounds emitterBounds{};          ///< of what emits, widened by more than rounding can move a hit
+    Bounds emitterBounds{};          ///< of the emitters, enlarged by more than the rounding error of a hit
     double brightestEmission = 0.0;  ///< radiance
     double buildSeconds = 0.0, uploadSeconds = 0.0;
 
@@ -37,17 +37,17 @@ struct DeviceScene {
     Buffer triangles, normals, materials, lights, planes;
     std::optional<AccelerationStructure> structure{};  ///< with Layout::kRayQuery
 
-    /// What the traversal needs.
+    /// The bindings that the traversal needs.
     std::vector<Binding> treeBindings() const;
     std::uint64_t deviceBytes() const;
 };
 
-/// Throws MachineError, with numbers, if so many bytes of a scene do not fit into the memory of a GPU. (A
-/// software driver's is the host's, whatever it says.)
+/// Throws MachineError, with the numbers, if a scene of this size does not fit into the memory of a GPU. Not
+/// checked for software drivers, which use the host's memory whatever they report.
 void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene);
 
-/// Builds the trees and uploads everything. Throws MachineError if it does not fit the device, and UsageError
-/// if that cannot do what is asked for.
+/// Builds the trees and uploads the scene. Throws MachineError if it does not fit the device, and UsageError
+/// if the device does not support the requested tuning.
 DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice = {});
 
 }  // namespace duolux

@@ -7,10 +7,10 @@
 
 namespace duolux {
 
-/// For reports: which device, by which driver, of which kind.
+/// Name, driver and kind of a device, for reports.
 nlohmann::ordered_json toJson(const DeviceInfo& device);
 
-/// All of a tuning.
+/// All values of a tuning, for reports.
 nlohmann::ordered_json toJson(const Tuning& tuning);
 
 }  // namespace duolux

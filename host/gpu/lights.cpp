@@ -13,7 +13,7 @@ float pointErrorOf(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     return std::max({largest.x, largest.y, largest.z}) * kPointError;
 }
 
-/// What one unit of area emits, over both sides; the unit of power does not matter here.
+/// Emission per unit area, summed over both sides, in an arbitrary unit of power.
 double brightness(const Emission& emission, bool bothComponents) {
     const glm::dvec3 e =
         glm::dvec3(emission.invisible) + (bothComponents ? glm::dvec3(emission.visible) : glm::dvec3(0.0));
@@ -46,7 +46,7 @@ std::vector<AliasEntry> buildAliasTable(std::span<const double> weights) {
             small.push_back(l);
         }
     }
-    // What is left is 1 but for rounding.
+    // The remaining entries are 1 up to rounding.
     for (const auto* rest : {&small, &large}) {
         for (std::uint32_t i : *rest)
             table[i] = {1.0f, i};

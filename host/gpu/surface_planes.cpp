@@ -20,8 +20,8 @@ float largestCoordinate(const Geometry& geometry, std::size_t triangle) {
     return largest;
 }
 
-/// Some triangle reaches many times as far as a tenth of all triangles do: then single precision, relative to
-/// its corners, is too coarse for what is near the origin.
+/// Whether some triangle extends many times as far as the nearest tenth of all triangles: single precision,
+/// relative to its corners, is then too coarse for surfaces near the origin.
 bool anyReachesFar(const Geometry& geometry) {
     constexpr float kFar = 64.0f;
     constexpr std::size_t kSamples = 4096;
@@ -71,7 +71,7 @@ glm::vec4 SurfacePlanes::planeOf(std::uint32_t triangle) const {
     };
     const std::uint32_t source = groups_.empty() ? triangle : groups_[triangle];
     const glm::vec3 normal(glm::normalize(areaVector(source)));
-    // Of the plane with the rounded normal through the corner nearest to the origin.
+    // The plane with the rounded normal passes through the corner nearest to the origin.
     double offset = 0.0, nearest = INFINITY;
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3 p = corner(source, k);

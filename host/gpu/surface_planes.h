@@ -9,25 +9,26 @@
 
 namespace duolux {
 
-/// What the device needs to know of a scene's triangles where distances from their corners would not do:
-/// where surfaces coincide, or where triangles are many times farther than what is between them, like a
-/// ground that reaches to the horizon.
+/// Planes and ranks of a scene's triangles. Kernels need them where distances computed from the corners are
+/// too inaccurate: where surfaces coincide, or where triangles are much larger than the rest of the scene,
+/// such as a ground plane that extends to the horizon.
 class SurfacePlanes {
   public:
     explicit SurfacePlanes(const Scene& scene);
 
-    /// Kernels find distances by planes (shared::kSpecPlanes). Nothing below has a meaning otherwise.
+    /// Whether kernels compute distances from planes (shared::kSpecPlanes). If not, the functions below do
+    /// not apply.
     bool used() const { return used_; }
 
-    /// The front's unit normal of a triangle, and dot(normal, x) on it: to the bit the same, but for the
-    /// sign, for all that coincide.
+    /// The unit normal on the triangle's front side, and dot(normal, x). Bitwise identical, except for the
+    /// sign, for all coincident triangles.
     glm::vec4 planeOf(std::uint32_t triangle) const;
 
-    /// Other triangles coincide with this one.
+    /// Whether other triangles coincide with this one.
     bool coincident(std::uint32_t triangle) const { return !shared_.empty() && shared_[triangle]; }
 
-    /// The place of a triangle among coincident ones that face the same way: an emitter is before what is no
-    /// emitter, so that a lamp in the plane of a ceiling shines; else they are in the order of the scene.
+    /// The rank of a triangle among coincident triangles with the same orientation. Emitters come first, so
+    /// that a lamp in the plane of a ceiling is visible; otherwise the order of the scene applies.
     std::uint32_t rankOf(std::uint32_t triangle) const { return used_ ? ranks_[triangle] : triangle; }
 
   private:

@@ -10,7 +10,7 @@ bool any(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
 
-/// Which entries of the matrices are non-zero anywhere: bit j of row i.
+/// The entries that are non-zero in any of the matrices: bit j of row i.
 struct Pattern {
     unsigned row[2] = {0, 0};
 
@@ -18,7 +18,7 @@ struct Pattern {
         row[0] |= (any(m.m00) ? 1u : 0u) | (any(m.m01) ? 2u : 0u);
         row[1] |= (any(m.m10) ? 1u : 0u) | (any(m.m11) ? 2u : 0u);
     }
-    /// Components on which importance on the components `set` can be after this matrix.
+    /// The components that can carry importance after this matrix if the components `set` carry it before.
     unsigned after(unsigned set) const {
         return ((set & 1) != 0 ? row[0] : 0u) | ((set & 2) != 0 ? row[1] : 0u);
     }
@@ -38,7 +38,7 @@ TransportTraits analyseTransport(const Scene& scene) {
     TransportTraits traits;
     Pattern opaque;
     Pattern transparent;
-    bool identity = true;  // on the first column, where all importance is unless there is a second one
+    bool identity = true;  // on the first column, which carries all importance unless there is a second one
     const Reflectance* first = nullptr;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (!used[i]) continue;
@@ -67,7 +67,7 @@ TransportTraits analyseTransport(const Scene& scene) {
                                      ? shared::kTransmittanceGeneral
                                      : traits.transmittance;
 
-    // Follow the components that can carry importance until none can.
+    // Follows the components that can carry importance until none can.
     unsigned set = 3;
     for (;;) {
         const unsigned crossed = set | transparent.after(set);

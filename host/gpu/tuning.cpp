@@ -68,21 +68,21 @@ Tuning chooseTuning(const DeviceInfo& device, const TuningChoice& choice) {
     tuning.layout = chooseLayout(device, choice);
     tuning.kernel = chooseKernel(tuning.layout, choice);
     tuning.lanes = std::max(device.subgroupSize, 1u);
-    // On a CPU a work group is about a subgroup: what runs at once are the few threads.
+    // On a CPU, few threads run at once, so a work group is about as large as a subgroup.
     tuning.workgroupSize =
         std::max(std::min(cpu ? 8u : 64u, device.maxWorkgroupSize) / tuning.lanes, 1u) * tuning.lanes;
     if (tuning.kernel == KernelKind::kRefilling) {
-        // Measured with 8 lanes, where 4 to 5 and 2 to 4 are within noise of each other.
+        // Measured with 8 lanes: 4 to 5 (traversal) and 2 to 4 (nodes) are equal within noise.
         tuning.leaveTraversal = tuning.lanes / 2;
         tuning.leaveNodes = tuning.lanes * 3 / 8;
     }
     // Lavapipe compiles ballots to loops over lanes.
     tuning.voteByShuffle = cpu && tuning.lanes == 8;
-    // Threads of a CPU four times over.
+    // Four teams for each thread of a CPU.
     tuning.fewestTeams = cpu ? 4u * workerCount() : 8192u;
-    // On lavapipe 64 paths or more are within noise of each other, but 16 are 12 % slower; it ends the loops
-    // of a subgroup after 65535 iterations, which rays with many crossings reach early. A GPU needs many
-    // teams more than it needs this.
+    // On lavapipe, 64 or more paths are equal within noise, and 16 are 12 % slower. Lavapipe ends the loops
+    // of a subgroup after 65535 iterations, which rays with many crossings reach early. On a GPU, many teams
+    // matter more than many paths per lane.
     tuning.lanePaths = cpu ? 128u : 16u;
     tuning.laneCrossingPaths = cpu ? 32u : 16u;
     tuning.laneRays = cpu ? 128u : 4u;
@@ -93,7 +93,7 @@ Layout layoutThatFits(const DeviceInfo& device, Layout chosen, const TuningChoic
                       std::uint64_t bytes) {
     if (chosen == Layout::kRayQuery || bytes <= largestBuffer(device, chosen)) return chosen;
     const Layout other = chosen == Layout::kStorage ? Layout::kTexel : Layout::kStorage;
-    // Where neither fits, uploading says so.
+    // If neither layout fits, the upload reports it.
     if (bytes > largestBuffer(device, other)) return chosen;
     if (!choice.layout) return other;
     throw MachineError(fmt::format(
