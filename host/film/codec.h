@@ -25,23 +25,23 @@ RadianceImage decodeDisplayedExr(std::string_view bytes,
 RadianceImage decodePng(std::string_view bytes, const std::string& file);
 RadianceImage decodePfm(std::string_view bytes, const std::string& file);
 
-/// Pixels on a side of the largest image that is read.
+/// Width and height of the largest readable image, in pixels.
 inline constexpr int kMaxImageSide = 65536;
 
-/// Throws InputError unless 1..kMaxImageSide pixels on each side, and no more in all than a compressed file
-/// of `fileBytes` can hold: a damaged or hostile header must not make the reader allocate what the file
-/// cannot fill.
+/// Throws InputError unless width and height are 1..kMaxImageSide and a compressed file of `fileBytes` can
+/// hold so many pixels: a damaged or hostile header must not make the reader allocate more than the file can
+/// fill.
 void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileBytes, const std::string& file);
 
-/// A few rows of a picture that is being written, and what is displayed of them.
+/// A few rows of an image that is being written, with their displayed values.
 class RowBand {
   public:
-    /// Rows in a band. OpenEXR's ZIP packs as many together.
+    /// Rows in a band; a block of OpenEXR's ZIP compression has as many.
     static constexpr std::uint32_t kRows = 16;
 
     RowBand(const ImageRows& rows, glm::vec2 display);
 
-    /// Takes the rows from `firstRow` on, kRows or as many as are left; returns their number.
+    /// Reads kRows rows (fewer at the end of the image) from `firstRow` on and returns their number.
     std::uint32_t read(std::uint32_t firstRow);
 
     std::span<const glm::vec3> invisible() const { return invisible_; }

@@ -24,8 +24,8 @@ constexpr const char* kDisplayedNames[3] = {"R", "G", "B"};
 constexpr const char* kInvisibleNames[3] = {"invisible.R", "invisible.G", "invisible.B"};
 constexpr const char* kVisibleNames[3] = {"visible.R", "visible.G", "visible.B"};
 
-/// A file that is being written. OpenEXR completes it in a destructor, where it drops exceptions: the first
-/// is kept.
+/// Output stream for OpenEXR. OpenEXR completes the file in a destructor and drops exceptions there, so the
+/// stream keeps the first exception.
 class ExrOutput : public Imf::OStream {
   public:
     explicit ExrOutput(FileWriter& out) : Imf::OStream("output"), out_(out) {}
@@ -75,10 +75,10 @@ class MemoryInput : public Imf::IStream {
     std::size_t position_ = 0;
 };
 
-/// Adds three float channels stored as glm::vec3. `origin` is where the pixel (0, 0) would be.
+/// Adds three float channels stored as glm::vec3. `origin` is the address that the pixel (0, 0) would have.
 void addSlices(Imf::FrameBuffer& frame, const char* const (&names)[3], const glm::vec3* origin,
                std::size_t width) {
-    // OpenEXR's slices are mutable for reading and writing alike; writing a file only reads them.
+    // OpenEXR's slices take non-const pointers even for writing a file, which only reads the memory.
     char* base = const_cast<char*>(reinterpret_cast<const char*>(origin));
     for (int c = 0; c < 3; ++c) {
         frame.insert(names[c], Imf::Slice(Imf::FLOAT, base + c * sizeof(float), sizeof(glm::vec3),
@@ -117,7 +117,7 @@ void encodeExr(const ImageRows& rows, const ImageOptions& options, FileWriter& o
             file.writePixels(static_cast<int>(count));
         }
     } catch (const std::exception&) {
-        output.rethrow();  // what went wrong, without OpenEXR's words around it
+        output.rethrow();  // the original exception, without OpenEXR's text around it
         throw;
     }
     output.rethrow();

@@ -18,15 +18,16 @@ namespace {
 constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kMultiPart = 0x1000;  // of the version field
 
-/// Bytes of pixels that a byte of a file can stand for: deflate's most, which no other method exceeds, but
-/// for DWA, which packs the coefficients of 64 equal pixels into two before.
+/// The largest compression ratio: that of deflate, which no other method exceeds except DWA, which first
+/// reduces 64 equal pixels to two coefficients.
 constexpr std::uint64_t kMaxExpansion = 1032;
 constexpr std::uint64_t kMaxDwaExpansion = 32 * kMaxExpansion;
 
-/// OpenEXR unpacks blocks of lines whole, however few lines there are: harmless up to here.
+/// OpenEXR allocates whole blocks of lines, even for images with fewer lines. Blocks up to this size are
+/// harmless.
 constexpr std::uint64_t kFineBlockBytes = std::uint64_t{64} << 20;
 
-/// Lines in a block, by method of compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+/// Lines per block for each compression method: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 constexpr std::uint32_t kBlockLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 constexpr std::uint8_t kDwaa = 8;
 
@@ -35,12 +36,12 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
     return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<std::uint64_t>::max() : product;
 }
 
-/// What the header of one part says.
+/// The header of one part.
 struct Part {
     std::int64_t width = 0, height = 0;
     std::uint64_t pixelBytes = 0;
     std::uint8_t compression = 0;
-    std::uint32_t tileWidth = 0, tileHeight = 0;  // 0: lines, no tiles
+    std::uint32_t tileWidth = 0, tileHeight = 0;  // 0: scan lines instead of tiles
 };
 
 class HeaderReader {
@@ -57,7 +58,7 @@ class HeaderReader {
         return value;
     }
 
-    /// Up to a zero byte.
+    /// Reads text up to a zero byte.
     std::string_view text() {
         const std::size_t length = rest_.find('\0');
         if (length == std::string_view::npos) fail("ends within its header");
@@ -66,7 +67,7 @@ class HeaderReader {
         return out;
     }
 
-    /// The attributes of a part; false if there is none.
+    /// Reads the attributes of a part; returns false if there is no further part.
     bool part(Part& part) {
         bool any = false;
         for (std::string_view name = text(); !name.empty(); name = text()) {
@@ -126,7 +127,7 @@ class HeaderReader {
             while (!text().empty()) {
                 constexpr std::int32_t kHalf = 1;
                 part.pixelBytes += number<std::int32_t>() == kHalf ? 2 : 4;
-                for (int i = 0; i < 3; ++i)  // linearity, and the distances between samples
+                for (int i = 0; i < 3; ++i)  // pLinear, xSampling, ySampling
                     number<std::int32_t>();
             }
         }

@@ -5,9 +5,9 @@
 
 namespace duolux {
 
-/// Throws InputError where the header of an OpenEXR file claims more than the file can hold: OpenEXR
-/// allocates what attributes, channels, tiles and the data window claim before it reads them. Whatever else
-/// is wrong with a file is left to OpenEXR to tell.
+/// Throws InputError if the header of an OpenEXR file claims more data than the file can hold: OpenEXR
+/// allocates memory for the claimed attributes, channels, tiles and data window before it reads them. OpenEXR
+/// reports all other errors.
 void checkExrHeader(std::string_view bytes, const std::string& file);
 
 }  // namespace duolux

@@ -11,31 +11,32 @@
 namespace duolux {
 
 /// Accumulates radiance exactly: every sample is rounded once to a multiple of `quantum` (on the device), and
-/// sums are integers. Integer addition is associative, so the image is the same bits however the work was
+/// sums are integers. Integer addition is associative, so the image is bitwise identical however the work is
 /// split.
 class Film {
   public:
-    /// Sums of one pixel, in quanta: the low 64 bits of them, two's complement.
+    /// Sums of one pixel in quanta: their low 64 bits, two's complement.
     struct PixelSum {
         std::int64_t invisible[3];
         std::int64_t visible[3];
     };
-    /// The multiples of 2^64 of those few sums that need more, by the number of the sum: 6 pixel + channel
-    /// (3 more for the visible component), those of light paths after all others.
+    /// The multiples of 2^64 of the few sums that exceed 64 bits, by the index of the sum: 6 pixel + channel
+    /// (+ 3 for the visible component). The sums of light paths follow all others.
     using Carries = std::map<std::uint64_t, std::int64_t>;
 
-    /// `quantum`: radiance of one unit, a power of two > 0.
+    /// `quantum`: the radiance of one unit, a power of two > 0.
     Film(std::uint32_t width, std::uint32_t height, float quantum);
 
-    /// From what the accessors of another film returned; `lightSums` may be empty. The sizes must fit.
+    /// Creates a film from the values of another film's accessors; `lightSums` may be empty. The sizes must
+    /// match.
     Film(std::uint32_t width, std::uint32_t height, float quantum, std::vector<PixelSum> sums,
          std::vector<std::uint32_t> samples, std::vector<PixelSum> lightSums, std::uint64_t lightPaths,
          Carries carries);
 
-    /// Before anything is added.
+    /// Must be called before anything is added.
     void setQuantum(float quantum);
 
-    /// Adds all that a film of the same size holds. If the quanta differ, the smaller one is kept.
+    /// Adds all sums of a film of the same size. If the quanta differ, the smaller one is kept.
     void add(const Film& other);
 
     std::uint32_t width() const { return width_; }
@@ -45,43 +46,43 @@ class Film {
     /// Adds sums of `samples` samples each to the pixels listed (indices row-major from the top left).
     void add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples);
 
-    /// Adds what light paths brought to the pixels from firstPixel on: sums that are >= 0, or < 0 where they
-    /// passed the range of 63 bits; those count as the largest, and overflowed() tells. Kept apart from what
-    /// pixels gather: a pixel's value is the sum over all light paths, in units of radiance, divided by the
-    /// number of paths per pixel of the image.
+    /// Adds the contributions of light paths to the pixels from firstPixel on. The sums are >= 0; a sum < 0
+    /// has exceeded 63 bits, counts as the largest value, and sets overflowed(). These sums are kept
+    /// separately from those of the path tracer: the value of a pixel is its sum over all light paths, in
+    /// units of radiance, divided by the number of light paths per pixel of the image.
     void addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums);
 
-    /// Counts light paths whose light has been added, or that brought none.
+    /// Counts light paths whose contributions have been added, including those without any.
     void countLightPaths(std::uint64_t paths) { lightPaths_ += paths; }
 
-    /// The largest mean radiance of a pixel; resolve() clamps what is brighter. The same for gathered samples
-    /// and light paths, however many there are.
+    /// The largest mean radiance of a pixel; resolve() clamps larger values. It does not depend on the
+    /// integrator or on the number of samples.
     double largestRadiance() const;
-    /// Some pixel is brighter than that, or may have been.
+    /// Whether some pixel exceeds, or may have exceeded, largestRadiance().
     bool overflowed() const;
     std::uint64_t totalSamples() const;
     std::uint32_t samplesOf(std::uint32_t pixel) const { return samples_[pixel]; }
     std::span<const std::uint32_t> samples() const { return samples_; }
     std::span<const PixelSum> sums() const { return sums_; }
     std::uint64_t lightPaths() const { return lightPaths_; }
-    std::span<const PixelSum> lightSums() const { return lightSums_; }  ///< empty if there is no light
+    std::span<const PixelSum> lightSums() const { return lightSums_; }  ///< empty without light paths
     const Carries& carries() const { return carries_; }
 
-    /// Mean radiance per pixel: what it gathered and what light paths brought; black where there is neither.
+    /// Mean radiance per pixel, from samples and from light paths; black where there are neither.
     /// The film must outlive the rows.
     ImageRows rows() const;
 
-    /// All rows as an image.
+    /// rows() as an image.
     RadianceImage resolve() const;
 
   private:
     void readRows(std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible) const;
     void addTo(PixelSum& total, const PixelSum& term, std::uint64_t firstSum);
     void carry(std::uint64_t sum, std::int64_t count);
-    /// Multiplies all sums by 2^shift and divides the quantum by it.
+    /// Multiplies all sums by 2^shift and divides the quantum by 2^shift.
     void refine(int shift);
     std::uint64_t firstLightSum() const { return 6 * std::uint64_t{width_} * height_; }
-    /// Of one component of a pixel, before it is clamped; `component`: 0 invisible, 1 visible.
+    /// The mean of one component of a pixel before clamping; `component`: 0 invisible, 1 visible.
     glm::dvec3 meanOf(std::size_t pixel, int component) const;
 
     std::uint32_t width_, height_;

@@ -1,6 +1,6 @@
 #include "host/film/font.h"
 
-// The assembler copies the file: a C++ array of 760,000 numbers would take the compiler seconds.
+// The assembler includes the file: a C++ array of 760,000 numbers would take seconds to compile.
 // DUOLUX_FONT_FILE is set by CMake.
 asm(".pushsection .rodata\n"
     ".balign 16\n"

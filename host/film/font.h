@@ -4,7 +4,7 @@
 
 namespace duolux {
 
-/// The TrueType file of DejaVu Sans, embedded so that the installed program needs no font of the system.
+/// The TrueType file of DejaVu Sans, embedded so that the installed program needs no system font.
 std::span<const unsigned char> fontFile();
 
 }  // namespace duolux

@@ -14,7 +14,7 @@ namespace duolux {
 
 namespace {
 
-/// Deflate packs at most 1032 bytes into one, and the densest pixels that are read have one bit.
+/// Deflate compresses at most 1032 bytes into one, and the smallest readable pixels have one bit.
 constexpr std::int64_t kMaxPixelsPerByte = 1032 * 8;
 
 struct Format {

@@ -20,15 +20,15 @@ struct RadianceImage {
     std::vector<glm::vec3> displayed(glm::vec2 d) const;
 };
 
-/// A picture that is made while it is written, so that it need not lie in memory as a whole.
+/// An image that is computed while it is written, so that it need not be in memory as a whole.
 struct ImageRows {
     std::uint32_t width = 0, height = 0;
-    /// Fills both spans, which hold so many whole rows, with those from `firstRow` on.
+    /// Fills both spans with whole rows from `firstRow` on; the size of the spans determines their number.
     std::function<void(std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible)>
         read;
 };
 
-/// The rows of an image that outlives them.
+/// The rows of an image, which must outlive them.
 ImageRows rowsOf(const RadianceImage& image);
 
 struct ImageOptions {
@@ -37,7 +37,7 @@ struct ImageOptions {
     std::vector<std::pair<std::string, std::string>> metadata;  ///< EXR and PNG text attributes
 };
 
-/// True if the extension is one that writeImage knows: .exr .png .pfm (any case).
+/// True if writeImage supports the extension: .exr .png .pfm (case-insensitive).
 bool isImagePath(const std::filesystem::path& path);
 
 /// Writes by extension, atomically. EXR: float R G B (displayed), invisible.R/G/B, visible.R/G/B.
@@ -49,8 +49,8 @@ void writeImage(const std::filesystem::path& path, const RadianceImage& image, c
 /// to linear). Throws InputError.
 RadianceImage readImage(const std::filesystem::path& path);
 
-/// The picture that a file shows, as the visible component: of an EXR its R G B, whatever row d made them of
-/// both components.
+/// Reads the displayed image of a file as the visible component. For an EXR file these are its channels R G
+/// B, whatever row d combined the components.
 RadianceImage readDisplayedImage(const std::filesystem::path& path);
 
 }  // namespace duolux

@@ -26,8 +26,8 @@ struct PfmHeader {
     std::size_t dataOffset = 0;
 };
 
-/// The next word of the header; exactly one white-space byte after it is consumed, as the format demands of
-/// the last.
+/// The next word of the header. Exactly one white-space byte after it is consumed, as the format requires
+/// after the last word.
 std::string_view nextWord(std::string_view bytes, std::size_t& offset) {
     constexpr std::string_view kSpace = " \t\r\n";
     const std::size_t begin = bytes.find_first_not_of(kSpace, offset);

@@ -30,8 +30,8 @@ void toBytes(std::span<const glm::vec3> pixels, double scale, std::vector<png_by
     });
 }
 
-/// What libpng's callbacks share with the writer. libpng reports errors by longjmp, so nothing with a
-/// destructor may live between setjmp and it, and no exception may pass through it.
+/// State shared by libpng's callbacks and the writer. libpng reports errors by longjmp, so no object with a
+/// destructor may exist between setjmp and longjmp, and no exception may pass through libpng.
 struct PngOutput {
     FileWriter& out;
     std::exception_ptr failure{};
@@ -102,7 +102,7 @@ bool writeEnd(png_structp png, png_infop info) {
     return true;
 }
 
-/// libpng's structures, which are destroyed in any case.
+/// Owns libpng's structures.
 struct PngWriter {
     explicit PngWriter(PngOutput& output)
         : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, onError, onWarning)),
@@ -119,7 +119,7 @@ struct PngWriter {
     throw InputError(file, "", std::string("is not a readable PNG image: ") + png.message, "");
 }
 
-/// A big-endian number.
+/// Reads a big-endian number.
 std::uint32_t number(std::string_view bytes) {
     std::uint32_t value = 0;
     for (const char byte : bytes.substr(0, 4))
@@ -127,8 +127,9 @@ std::uint32_t number(std::string_view bytes) {
     return value;
 }
 
-/// What of a PNG file libpng needs. It allocates what the length of a chunk claims, and inflates text: so
-/// lengths are held against the file's, and only chunks that change the picture are passed on.
+/// The chunks of a PNG file that libpng needs. libpng allocates as much memory as a chunk's length claims,
+/// and inflates text. Therefore lengths are checked against the size of the file, and only chunks that affect
+/// the image are passed on.
 std::string essentialChunks(std::string_view bytes, const std::string& file) {
     constexpr std::size_t kSignature = 8,
                           kAround = 12;  // length and type before the data of a chunk, CRC after
@@ -155,10 +156,10 @@ std::string essentialChunks(std::string_view bytes, const std::string& file) {
         if (type == "IEND") break;
         at += chunk.size();
     }
-    if (header.empty()) return out;  // libpng says so
+    if (header.empty()) return out;  // libpng reports this
     const std::uint32_t width = number(header), height = number(header.substr(4));
     checkImageSize(width, height, bytes.size(), file);
-    // Deflate packs at most 1032 bytes into one, and every row has one for its filter.
+    // Deflate compresses at most 1032 bytes into one, and every row has one byte for its filter.
     const auto depth = static_cast<unsigned char>(header[8]), colour = static_cast<unsigned char>(header[9]);
     const std::uint64_t channels = colour == 2 ? 3 : colour == 6 ? 4 : colour == 4 ? 2 : 1;
     const std::uint64_t unpacked = (width * channels * depth / 8 + 1) * height;
@@ -206,7 +207,7 @@ RadianceImage decodePng(std::string_view bytes, const std::string& file) {
         throw;
     }
     png.format = PNG_FORMAT_RGB;
-    const png_color black{0, 0, 0};  // what shows through transparent pixels
+    const png_color black{0, 0, 0};  // background of transparent pixels
     if (png_image_finish_read(&png, &black, pixels.data(), 0, nullptr) == 0) throwUnreadable(png, file);
     RadianceImage image = makeImage(png.width, png.height);
     for (std::size_t i = 0; i < image.visible.size(); ++i) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kFrame = 1;        // pixels of the line around an image
 constexpr double kFrameGrey = 0.8;         // sRGB-encoded, 0 to 1
-constexpr double kInk = 0.1;               // and of the captions
+constexpr double kInk = 0.1;               // grey of the captions, sRGB-encoded
 constexpr float kSmallestCaption = 11.0f;  // pixels, ascent to descent
 constexpr float kLargestCaption = 40.0f;
 constexpr const char* kEllipsis = "\u2026";
@@ -24,7 +24,7 @@ struct Layout {
     std::uint32_t columns, rows;
     std::uint32_t gap;            // around and between images
     float captionSize;            // pixels, ascent to descent
-    std::uint32_t captionHeight;  // the same in whole pixels
+    std::uint32_t captionHeight;  // captionSize in whole pixels
 
     std::uint32_t cellWidth() const { return imageWidth + gap; }
     std::uint32_t cellHeight() const { return imageHeight + captionGap() + captionHeight + gap; }
@@ -33,7 +33,7 @@ struct Layout {
     std::uint32_t height() const { return gap + rows * cellHeight(); }
 };
 
-/// The size at which the widest caption fits below its image, within reason.
+/// The size at which the widest caption fits below its image, limited to kSmallestCaption..kLargestCaption.
 float captionSizeFor(std::span<const SheetCell> cells, std::uint32_t imageWidth) {
     const float wanted =
         std::clamp(static_cast<float>(imageWidth) / 14.0f, kSmallestCaption, kLargestCaption);
@@ -58,7 +58,7 @@ Layout layOut(std::span<const SheetCell> cells, std::uint32_t columns) {
     return layout;
 }
 
-/// The text, or as much of its beginning as fits with an ellipsis.
+/// The text, or the part of its beginning that fits with an ellipsis.
 std::string shorten(std::string text, float size, std::uint32_t width) {
     if (textWidth(text, size) <= width) return text;
     const auto isContinuation = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; };
@@ -86,8 +86,8 @@ void paste(RadianceImage& sheet, const RadianceImage& image, std::uint32_t x0, s
     }
 }
 
-/// Dark text on the white sheet, cut off at its right edge. Blended in encoded values, which keeps thin
-/// strokes dark.
+/// Draws dark text on the white sheet, clipped at its right edge. Blending encoded values keeps thin strokes
+/// dark.
 void drawText(RadianceImage& sheet, const TextBitmap& text, std::uint32_t x0, std::uint32_t y0) {
     for (std::uint32_t y = 0; y < text.height; ++y) {
         for (std::uint32_t x = 0; x < std::min(text.width, sheet.width - x0); ++x) {
@@ -115,7 +115,7 @@ RadianceImage makeSheet(std::span<const SheetCell> cells, std::uint32_t columns)
         paste(sheet, cell.image, x, y);
         const TextBitmap text =
             setText(shorten(cell.caption, layout.captionSize, layout.imageWidth), layout.captionSize);
-        // An image may be too narrow even for the ellipsis.
+        // The image may be too narrow even for the ellipsis.
         const std::uint32_t left = x + layout.imageWidth / 2 - std::min(text.width, layout.imageWidth) / 2;
         drawText(sheet, text, left, y + layout.imageHeight + layout.captionGap());
     }

@@ -11,7 +11,7 @@ double srgbDecode(double encoded);
 /// Linear value to the nearest 8-bit sRGB code: clamped to [0, 1], NaN becomes 0.
 std::uint8_t toSrgb8(double linear);
 
-/// The linear value that an 8-bit sRGB code stands for. toSrgb8(fromSrgb8(code)) == code.
+/// The linear value of an 8-bit sRGB code. toSrgb8(fromSrgb8(code)) == code.
 float fromSrgb8(std::uint8_t code);
 
 }  // namespace duolux

@@ -12,11 +12,11 @@ struct TextBitmap {
     std::vector<std::uint8_t> coverage;
 };
 
-/// Sets a line of UTF-8 in DejaVu Sans. All lines of one `pixelHeight` (ascent to descent) have the same
-/// height and baseline. Bytes that are not UTF-8 show as replacement characters.
+/// Renders a line of UTF-8 text in DejaVu Sans. All lines of one `pixelHeight` (ascent to descent) have the
+/// same height and baseline. Bytes that are not UTF-8 appear as replacement characters.
 TextBitmap setText(std::string_view text, float pixelHeight);
 
-/// Width of setText's bitmap.
+/// Width of the bitmap that setText returns, in pixels.
 std::uint32_t textWidth(std::string_view text, float pixelHeight);
 
 }  // namespace duolux
