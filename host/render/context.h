@@ -7,7 +7,7 @@
 
 namespace duolux {
 
-/// A render under way: what the two integrators have in common.
+/// The state of a running render, shared by both integrators.
 struct RenderContext {
     using Clock = std::chrono::steady_clock;
 
@@ -18,13 +18,13 @@ struct RenderContext {
     Film film;
     RenderStatistics statistics;
     /// Displayed radiance of paths with the largest number of scattering events, and with one fewer: sums
-    /// over samples, of the means of the channels.
+    /// over samples of the mean of the channels.
     double lastBounce = 0.0, previousBounce = 0.0;
     Clock::time_point start{}, lastReceived{}, lastCheckpoint{};
-    double secondsPerSample = 0.0;  ///< on the device, as measured so far; 0: not yet
+    double secondsPerSample = 0.0;  ///< on the device, as measured so far; 0: not measured yet
 
     std::uint64_t pixels() const { return std::uint64_t{film.width()} * film.height(); }
-    /// Samples or light paths to take, without what was resumed.
+    /// Number of samples or light paths to trace, excluding those that were resumed.
     std::uint64_t samplesTotal() const;
     std::uint64_t samplesResumed = 0;
 
@@ -34,29 +34,30 @@ struct RenderContext {
     }
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-    /// A dispatch begun now might not end within the time limit.
+    /// Whether a dispatch that starts now could exceed the time limit.
     bool timeIsUp() const;
 
-    /// Takes note of the time that a dispatch took, which is back; `samples`: paths in it.
+    /// Records the time of a finished dispatch; `samples`: number of its paths.
     void received(double deviceSeconds, std::uint64_t samples);
 
-    /// Tells the caller, who may stop the render. `underWay`: samples that the statistics do not count yet.
+    /// Reports progress to the caller, who may stop the render. `underWay`: samples in flight, which the
+    /// statistics do not count yet.
     void reportProgress(std::uint64_t underWay = 0);
 
-    /// Has the caller keep what there is, if it is time. Only while no pixel's samples have gaps.
+    /// Calls onCheckpoint if it is due. Only while the samples of all pixels are free of gaps.
     void offerCheckpoint();
 
-    /// Takes the sums over samples into the statistics.
+    /// Computes the statistics from the sums over samples.
     void summarise();
 
-    /// The driver ended the loops of dispatches in which a lane had one path alone.
+    /// Throws because the driver ended the loops of a dispatch in which each lane had a single path.
     [[noreturn]] void failCutShort() const;
 };
 
-/// Gathering: takes all samples of all pixels.
+/// Path tracer: traces all samples of all pixels.
 void gather(RenderContext& context);
 
-/// Shooting: traces as many light paths as there would be samples.
+/// Light tracer: traces as many light paths as the path tracer would trace samples.
 void shoot(RenderContext& context);
 
 }  // namespace duolux

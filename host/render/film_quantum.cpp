@@ -7,10 +7,10 @@ namespace duolux {
 
 namespace {
 
-constexpr int kStep = 40;                  // binary orders of magnitude between looks
-constexpr int kLeast = -120, kMost = 100;  // exponents whose inverse is a float, too
-constexpr double kFewestQuanta = 256.0;    // in all; fewer would not tell how bright the picture is
-constexpr double kDarkest = 0x1p-13;       // the darker component counts down to this part of the other
+constexpr int kStep = 40;                  // factor between the quanta of two looks, as a power of two
+constexpr int kLeast = -120, kMost = 100;  // exponents of quanta; their inverses are floats as well
+constexpr double kFewestQuanta = 256.0;    // sum; fewer quanta do not determine the brightness of the image
+constexpr double kDarkest = 0x1p-13;       // a darker component counts down to this fraction of the other
 
 float powerOfTwo(int exponent) {
     return std::ldexp(1.0f, std::clamp(exponent, kLeast, kMost));
@@ -42,7 +42,7 @@ float findQuantum(double brightest, const std::function<FirstLook(float)>& look)
     if (!(brighter > 0.0)) return powerOfTwo(exponentOf(brightest) - 30);
     const int mean = exponentOf(darker > 0.0 ? std::max(darker, brighter * kDarkest) : brighter);
     constexpr int kLargest = 58;                                     // the exponent of shared::kFilmLargest
-    const int holdsEmission = exponentOf(brightest) + 4 - kLargest;  // in all six channels together
+    const int holdsEmission = exponentOf(brightest) + 4 - kLargest;  // in the sum of all six channels
     return powerOfTwo(std::max(mean - 30, std::min(holdsEmission, mean - 20)));
 }
 

@@ -5,19 +5,19 @@
 
 namespace duolux {
 
-/// What a few samples of a picture show, taken with some quantum of the film.
+/// Sums over a few samples of an image, taken with a trial quantum.
 struct FirstLook {
     double invisible = 0.0, visible = 0.0;  ///< sums over samples of the mean of the channels, in quanta
-    std::uint64_t samples = 0;              ///< of the mean of the picture
-    bool clamped = false;                   ///< some sample was brighter than the film could hold
+    std::uint64_t samples = 0;              ///< number of samples of the image's mean
+    bool clamped = false;                   ///< some sample exceeded the film's largest value
 };
 
-/// A power of two: a 2^-30th of the picture's mean radiance (of the darker component, unless that is many
-/// times darker), so that a pixel holds radiance up to 2^28 times that mean (shared::kFilmLargest). What the
-/// picture shows counts, and not what its emitters emit, which may be out of sight; but the quantum may be up
-/// to a 2^-20th of the mean if the film then holds the brightest emission, `brightest`, which a first look
-/// may miss. Where the look shows nothing that counts in place of the mean. `look` is called with different
-/// quanta until one suits.
+/// Chooses the quantum of a film, a power of two: 2^-30 of the image's mean radiance (of the darker
+/// component, unless it is many times darker), so that a pixel holds radiance up to 2^28 times this mean
+/// (shared::kFilmLargest). The mean is that of the image and not of the emitters, which may be out of view.
+/// The quantum may rise to 2^-20 of the mean if the film then holds `brightest`, the brightest emission,
+/// which a first look may miss. If the first look is black, `brightest` replaces the mean. `look` is called
+/// with different quanta until one is suitable.
 float findQuantum(double brightest, const std::function<FirstLook(float quantum)>& look);
 
 }  // namespace duolux

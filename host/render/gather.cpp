@@ -38,13 +38,14 @@ class Gatherer {
         const bool applies = context_.deviceScene.closedFormApplies;
         const DirectLight wanted = context_.control.directLight;
         if (wanted == DirectLight::kClosedForm && !applies) {
-            throw UsageError(fmt::format(
-                "{}: direct light has no closed form here; it needs surfaces that hide nothing (`local`, "
-                "`shadowless`), flat normals, and from 1 to {} emitting triangles",
-                context_.scene.source.string(), kMostClosedFormLights));
+            throw UsageError(
+                fmt::format("{}: direct light has no closed form in this scene; it requires surfaces that "
+                            "cast no shadows "
+                            "(`local`, `shadowless`), flat normals, and 1 to {} emitting triangles",
+                            context_.scene.source.string(), kMostClosedFormLights));
         }
-        // Where light is reflected again and again, direct light is a small part of the noise: on the Cornell
-        // box `shadowless` in closed form has 7 % less variance, and takes 10 % longer.
+        // With several bounces, direct light contributes little of the noise: on the Cornell box,
+        // `shadowless` in closed form has 7 % less variance and takes 10 % longer.
         const bool pays = !context_.deviceScene.traits.invisibleScatters;
         return applies && (wanted == DirectLight::kClosedForm || (pays && wanted == DirectLight::kAuto));
     }
@@ -67,7 +68,7 @@ class Gatherer {
         unsigned received = 0;
         bool timeIsUp = false;
         for (;;) {
-            // Keep two dispatches in flight, so that the device works while the host adds up.
+            // Two dispatches are kept in flight, so that the device works while the host sums results.
             while (submitted - received < 2) {
                 timeIsUp = timeIsUp || context_.timeIsUp();
                 Wanted wanted = timeIsUp ? Wanted::kFirstPass : Wanted::kAll;
@@ -86,7 +87,8 @@ class Gatherer {
         context_.reportProgress();
     }
 
-    /// By the first samples of a few pixels: the same ones whatever range of samples is to be taken.
+    /// Chooses the quantum by the first samples of a few pixels, which do not depend on the range of samples
+    /// to be traced.
     float chooseQuantum(PathKernel& kernel) {
         constexpr std::uint32_t kSamples = 4096;
         const std::uint32_t end = kernel.firstLookSlot() + kernel.lookSlots();
@@ -117,7 +119,8 @@ class Gatherer {
         });
     }
 
-    /// Some drivers end all loops of an invocation after a fixed number of iterations, without a word.
+    /// Reduces the work per lane. Some drivers silently end the loops of an invocation after a fixed number
+    /// of iterations.
     void takeLess(PathKernel& kernel, const PathKernel::Results& results) {
         if (results.laneSamples == 1) context_.failCutShort();
         kernel.limitLaneSamples(results.laneSamples / 2);
@@ -132,8 +135,8 @@ class Gatherer {
         return samples;
     }
 
-    /// Waits for a dispatch and adds up what it has traced; what the driver has cut short is to be traced
-    /// again, with a smaller share for each team.
+    /// Waits for a dispatch and adds its results. If the driver ended its loops early, the dispatch is traced
+    /// again with less work per team.
     void receive(PathKernel& kernel, unsigned place, Schedule& schedule) {
         const PathKernel::Results results = kernel.wait(place);
         context_.received(results.deviceSeconds, results.range.size());

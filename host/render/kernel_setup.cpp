@@ -14,12 +14,12 @@ shared::DeviceLightMatrix deviceMatrix(const LightMatrix& m) {
     return {m.m00, m.m01, m.m10, m.m11};
 }
 
-/// The reflectance of the first used material: all have it if traits.oneReflectance.
+/// The reflectance of the first used material; shared by all materials if traits.oneReflectance is true.
 const Reflectance& commonReflectance(const Scene& scene) {
     return scene.reflectanceOf(scene.materials[scene.geometry.materials.front()]);
 }
 
-// Part of the work that serves the component of the pixel that is not displayed.
+// Fraction of the work that is spent on the component of the pixel that is not displayed.
 constexpr float kUndisplayedWeight = 1.0f / 16.0f;
 
 shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene) {

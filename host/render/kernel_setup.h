@@ -8,7 +8,7 @@
 
 namespace duolux {
 
-// What the kernels of both integrators need of a scene.
+// Inputs that the kernels of both integrators need for a scene.
 
 /// The uniform block, shared::PathParams.
 Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const Scene& scene);
@@ -16,10 +16,10 @@ Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const 
 /// The scene's buffers and the uniform block.
 std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer& params);
 
-/// The specialisation constants that both kernels have.
+/// The specialisation constants of both kernels.
 std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, const Scene& scene);
 
-/// Paths that a lane takes in one dispatch.
+/// Number of paths that a lane traces in one dispatch.
 std::uint32_t lanePaths(const DeviceScene& deviceScene);
 
 }  // namespace duolux

@@ -16,11 +16,11 @@ namespace {
 constexpr std::uint64_t kPixelBytes = sizeof(Film::PixelSum);
 static_assert(kPixelBytes == shared::kFilmSums * 8);
 
-constexpr std::uint32_t kReadPixels = 1u << 20;  // of the film, at a time
+constexpr std::uint32_t kReadPixels = 1u << 20;  // pixels of the film that are read at a time
 
 std::uint32_t chooseBandPixels(const Device& device, Layout layout, const Scene& scene, std::uint32_t limit) {
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
-    // The results and the teams' progress are storage buffers, too, and so may be nodes and triangles.
+    // The other storage buffers: results and teams' progress and, with Layout::kStorage, nodes and triangles.
     const std::uint32_t others = layout == Layout::kStorage ? 4 : 2;
     const std::uint32_t bindable =
         device.physical().getProperties().limits.maxPerStageDescriptorStorageBuffers;

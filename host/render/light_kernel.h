@@ -21,46 +21,46 @@ struct PathRange {
     std::uint32_t count = 0;
 };
 
-/// The light-tracing kernel, specialised for a scene, with a film on the device to which it adds.
+/// The kernel of the light tracer, specialised for a scene, with a film on the device.
 class LightKernel {
   public:
-    /// For tests: what else is chosen by the device. None changes a bit of the image.
+    /// For tests: overrides choices that depend on the device. The image stays bitwise identical.
     struct Limits {
         std::uint32_t filmBandPixels = 0;  ///< 0: as many as the device can bind
         bool noInt64Atomics = false;
     };
 
-    /// `maxPaths`: of one dispatch. deviceScene must outlive this. Throws MachineError if the device cannot
-    /// hold a film of the scene's size.
+    /// `maxPaths`: largest number of paths in one dispatch. `deviceScene` must outlive this object. Throws
+    /// MachineError if the device cannot hold a film of the scene's size.
     LightKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
                 std::uint32_t maxPaths, const Limits& limits);
 
     std::uint32_t maxPaths() const { return maxPaths_; }
     std::uint64_t deviceBytes() const;
 
-    /// Paths that a lane takes in one dispatch; see PathKernel::laneSamples.
+    /// Number of paths that a lane traces in one dispatch; see PathKernel::laneSamples.
     std::uint32_t lanePaths() const { return lanePaths_; }
     void limitLanePaths(std::uint32_t paths) { lanePaths_ = std::min(lanePaths_, paths); }
 
-    /// Two dispatches may be in flight, in the places 0 and 1. Each adds to the film on the device, whose
-    /// unit is `quantum`.
+    /// Submits a dispatch. Two may be in flight, in the places 0 and 1. Each adds to the film on the device,
+    /// whose unit is `quantum`.
     void submit(unsigned place, const PathRange& range, float quantum);
 
     struct Results {
         PathRange range;
-        std::uint32_t lanePaths;  ///< the most that a lane had to take
-        bool complete;            ///< no team was cut short by the driver
+        std::uint32_t lanePaths;  ///< the largest number of paths that a lane had to trace
+        bool complete;            ///< the driver did not end the loops of any team early
         std::span<const shared::LaneResult> lanes;
         double deviceSeconds;
     };
-    /// Waits for the dispatch in a place. What is returned is valid until the next submit to it.
+    /// Waits for the dispatch in a place. The results are valid until the next submit to the same place.
     Results wait(unsigned place);
 
-    /// Adds the sums on the device to a film of the scene's size and quantum. Nothing may be in flight.
-    /// `partly` is true while some pixels have been added and others have not.
+    /// Adds the sums on the device to a film of the scene's size and quantum. No dispatch may be in flight.
+    /// `partly` is true while only some of the pixels have been added.
     void takeFilm(Film& film, bool& partly);
 
-    /// Begins again at zero, whatever has been added.
+    /// Sets all sums on the device to zero.
     void clearFilm();
 
   private:

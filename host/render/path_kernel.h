@@ -19,55 +19,56 @@
 
 namespace duolux {
 
-/// The path-tracing kernel, specialised for a scene. Slots are pixels in the order of `pixels`.
+/// The kernel of the path tracer, specialised for a scene. Slots are pixels in the order of `pixels`.
 class PathKernel {
   public:
-    /// Largest number of samples of a slot in one dispatch. Their sum fits the device's 64 bits by far
-    /// (film.glsl clamps a sample at 2^56 quanta).
+    /// Largest number of samples of a slot in one dispatch. Their sum fits into the device's 64 bits
+    /// (film.glsl clamps a sample to shared::kFilmLargest).
     static constexpr std::uint32_t kMaxSamples = 16;
-    /// Largest number of slots that a dispatch need have.
+    /// Largest useful number of slots in one dispatch.
     static constexpr std::uint32_t kMaxSlots = 1u << 18;
 
-    /// `maxSlots`: of one dispatch. `closedForm`: direct light is not sampled. `scene` and `deviceScene` must
-    /// belong together; deviceScene and pixels must outlive this.
+    /// `maxSlots`: largest number of slots in one dispatch. `closedForm`: direct light is computed in closed
+    /// form instead of being sampled. `deviceScene` must be made from `scene`; `deviceScene` and `pixels`
+    /// must outlive this object.
     PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
                std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm);
 
     std::uint32_t maxSlots() const { return maxSlots_; }
     std::uint64_t deviceBytes() const;
 
-    /// Samples that a lane takes in one dispatch, over all its slots. The more, the less the lanes of a team
-    /// wait for the last one; but drivers may end long loops.
+    /// Number of samples that a lane traces in one dispatch, over all its slots. With more samples, the lanes
+    /// of a team wait less for the last one, but some drivers end long loops early.
     std::uint32_t laneSamples() const { return laneSamples_; }
     void limitLaneSamples(std::uint32_t samples) { laneSamples_ = std::min(laneSamples_, samples); }
 
-    /// The slots after those of `pixels` are some more, spread evenly over the image, for a first look at it.
+    /// The first of the additional slots after those of `pixels`. They are spread evenly over the image, for
+    /// the first look.
     std::uint32_t firstLookSlot() const { return static_cast<std::uint32_t>(pixels_.size()); }
     std::uint32_t lookSlots() const { return lookSlots_; }
 
-    /// Two dispatches may be in flight, in the places 0 and 1. A range has at most laneSamples() samples of a
-    /// slot. `quantum`: of the film.
+    /// Submits a dispatch. Two may be in flight, in the places 0 and 1. A range has at most laneSamples()
+    /// samples of a slot. `quantum`: of the film.
     void submit(unsigned place, const WorkRange& range, float quantum);
 
     struct Results {
         WorkRange range;
-        std::uint32_t laneSamples;  ///< the most that a lane had to take
-        bool complete;              ///< no team was cut short by the driver
+        std::uint32_t laneSamples;  ///< the largest number of samples that a lane had to trace
+        bool complete;              ///< the driver did not end the loops of any team early
         double deviceSeconds;
     };
     /// Waits for the dispatch in a place.
     Results wait(unsigned place);
 
-    /// What the statistics take of a dispatch: sums over its samples. See shared::SlotResult.
+    /// The statistics of a dispatch: sums over its samples. See shared::SlotResult.
     struct Totals {
         std::uint64_t nonFinite = 0, cameraRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
         double lastBounce = 0.0, previousBounce = 0.0;
         bool clamped = false;
     };
-    /// Adds the sums of the dispatch in a place, which was waited for, to a film of the scene's size and
-    /// quantum.
+    /// Adds the sums of the finished dispatch in a place to a film of the scene's size and quantum.
     Totals addTo(Film& film, unsigned place);
-    /// The same sums, over the slots.
+    /// The same sums, totalled over the slots.
     FirstLook look(unsigned place);
 
   private:

@@ -21,8 +21,8 @@ std::vector<std::uint32_t> pixelOrder(std::uint32_t width, std::uint32_t height)
     const std::uint32_t tilesX = (width + kTile - 1) / kTile;
     const std::uint32_t tilesY = (height + kTile - 1) / kTile;
     const std::uint64_t tiles = std::uint64_t{tilesX} * tilesY;
-    // Steps of about the golden section visit every tile once if the step and the number of tiles have no
-    // divisor in common.
+    // A step of about the golden section visits every tile once if the step and the number of tiles are
+    // coprime.
     std::uint64_t step = static_cast<std::uint64_t>(static_cast<double>(tiles) * 0.6180339887) | 1u;
     while (std::gcd(step, tiles) != 1)
         step += 2;

@@ -5,9 +5,9 @@
 
 namespace duolux {
 
-/// All pixels of an image (row-major indices) in the order in which they are traced: tiles of 16x16, within a
-/// tile along a Morton curve, so that neighbouring lanes trace neighbouring pixels; the tiles in a scattered
-/// order, so that the parts of a dispatch that different cores take cost about the same.
+/// All pixels of an image (row-major indices) in the order in which they are traced. Within tiles of 16x16
+/// they follow a Morton curve, so that neighbouring lanes trace neighbouring pixels. The tiles are in a
+/// scattered order, so that the parts of a dispatch on different cores have similar costs.
 std::vector<std::uint32_t> pixelOrder(std::uint32_t width, std::uint32_t height);
 
 }  // namespace duolux

@@ -47,7 +47,7 @@ void RenderContext::received(double deviceSeconds, std::uint64_t samples) {
     if (statistics.dispatches++ == 0) statistics.firstDispatchSeconds = seconds();
     statistics.longestDispatchSeconds = std::max(statistics.longestDispatchSeconds, deviceSeconds);
     statistics.deviceSeconds += deviceSeconds;
-    // Without timestamps the time since the last dispatch came back has to do.
+    // Without timestamps, the time since the previous dispatch finished is used instead.
     const double measured =
         deviceSeconds > 0.0 ? deviceSeconds : std::chrono::duration<double>(now - lastReceived).count();
     lastReceived = now;
@@ -94,8 +94,8 @@ bool RenderStatistics::cutOffByBounces() const {
     const double negligible = 0.01 * std::abs(meanRadiance);
     if (!limitedByBounces || effectiveBounces == 0) return false;
     if (lastBounceRadiance > negligible) return true;
-    // Between parallel surfaces only every other bounce may reach the camera: a term that vanishes all at
-    // once says nothing of the next.
+    // Between parallel surfaces, only every second bounce may reach the camera, so a term that is suddenly
+    // zero does not bound the next one.
     return effectiveBounces > 2 && previousBounceRadiance > negligible &&
            lastBounceRadiance < 0.01 * previousBounceRadiance;
 }
@@ -112,7 +112,7 @@ DeviceScene upload(const Device& device, const Scene& scene, const TuningChoice&
     }
 }
 
-/// The integrator sets its quantum.
+/// The film of a render; the integrator sets its quantum.
 Film makeFilm(const RenderSettings& settings) {
     try {
         return Film(settings.width, settings.height, 1.0f);
@@ -133,7 +133,8 @@ void trace(RenderContext& context) {
     }
 }
 
-/// The samples that there are, and why there are no more; throws `line` alone if there are none.
+/// Throws a RenderFailure with the samples so far and the reason `line`, or only `line` if there are no
+/// samples.
 [[noreturn]] void failWithFilm(RenderContext& context, const std::string& line) {
     if (context.film.totalSamples() + context.film.lightPaths() == 0) throw MachineError(line);
     context.statistics.stopped = true;

@@ -16,24 +16,24 @@
 
 namespace duolux {
 
-/// Where a render stands; passed to RenderControl::onProgress after every dispatch. Samples are light paths
-/// if the scene's integrator shoots.
+/// The progress of a render; passed to RenderControl::onProgress after every dispatch. With the light tracer,
+/// samples are light paths.
 struct RenderProgress {
-    /// Over all pixels, without what was resumed.
+    /// Over all pixels, excluding resumed samples.
     std::uint64_t samplesDone = 0, samplesTotal = 0;
     double seconds = 0.0;  ///< since the first dispatch
 };
 
-/// How light from emitters to a surface is found.
+/// How direct light is computed.
 enum class DirectLight : std::uint8_t {
-    kAuto,       ///< in closed form where that applies and pays (`local`), sampled elsewhere
+    kAuto,       ///< closed form where it applies and is faster (`local`), otherwise sampled
     kSampled,    ///< next-event estimation with multiple importance sampling
     kClosedForm  ///< Lambert's polygon formula; only where DeviceScene::closedFormApplies
 };
 
 struct RenderStatistics;
 
-/// How far a render has come.
+/// The state of a render from which another render can resume.
 struct RenderState {
     Film film;
     double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0;  ///< as in RenderStatistics
@@ -41,62 +41,63 @@ struct RenderState {
 };
 
 struct RenderControl {
-    /// Samples [firstSample, spp) of every pixel, or the light paths of the same numbers times the number of
-    /// pixels.
+    /// The render traces the samples [firstSample, spp) of every pixel. With the light tracer, both numbers
+    /// are multiplied by the number of pixels to give the range of light paths.
     std::uint32_t firstSample = 0;
-    /// To go on from: of the same scene, settings but spp, and firstSample.
+    /// The state to resume from. Scene, firstSample and all settings except spp must be identical.
     const RenderState* resume = nullptr;
-    /// Called about every checkpointSeconds with what there is, from the rendering thread.
+    /// Called about every checkpointSeconds with the film so far, from the rendering thread.
     std::function<void(const Film&, const RenderStatistics&)> onCheckpoint;
     double checkpointSeconds = 60.0;
     DirectLight directLight = DirectLight::kAuto;
     TuningChoice tuning;
-    /// Called once before the first dispatch: until then there is nothing to lose.
+    /// Called once before the first dispatch; until then no work can be lost.
     std::function<void()> onStart;
-    /// Called now and then from the rendering thread; returning false stops the render cleanly.
+    /// Called periodically from the rendering thread; returning false stops the render cleanly.
     std::function<bool(const RenderProgress&)> onProgress;
-    /// Stops before this many seconds of rendering have passed; every pixel has at least one sample all the
-    /// same, or there are as many light paths as pixels.
+    /// The render stops before this many seconds have passed, but not before every pixel has one sample
+    /// (light tracer: before there are as many light paths as pixels).
     std::optional<double> timeLimit;
-    /// For tests; 0: no limit but the renderer's own. None changes a bit of the image.
+    /// For tests; 0: only the renderer's own limit. The image stays bitwise identical.
     std::uint32_t maxSamplesPerDispatch = 0;  ///< of one pixel
     std::uint32_t maxPixelsPerDispatch = 0;   ///< or light paths
-    std::uint32_t maxSamplesPerLane = 0;      ///< in one dispatch, over all pixels that a lane takes
-    std::uint32_t filmBandPixels = 0;         ///< of one buffer of the film that light paths add to
+    std::uint32_t maxSamplesPerLane = 0;      ///< in one dispatch, over all pixels of a lane
+    std::uint32_t filmBandPixels = 0;         ///< in one buffer of the light tracer's film
     bool noInt64Atomics = false;
 };
 
 struct RenderStatistics {
     Tuning tuning;
-    std::uint32_t lanePaths = 0;  ///< that a lane took at most in one dispatch
+    std::uint32_t lanePaths = 0;  ///< the largest number of paths of a lane in one dispatch
     double buildSeconds = 0.0;    ///< BVH
     double uploadSeconds = 0.0;
-    double pipelineSeconds = 0.0;       ///< creating the pipeline (and compiling, on drivers that do it then)
-    double firstDispatchSeconds = 0.0;  ///< wall, of the first dispatch (some drivers compile in it)
-    double renderSeconds = 0.0;         ///< wall, first dispatch to last
-    double deviceSeconds = 0.0;         ///< by timestamps, summed over dispatches
+    double pipelineSeconds = 0.0;         ///< creating the pipeline (some drivers compile the kernel here)
+    double firstDispatchSeconds = 0.0;    ///< wall time of the first dispatch (some drivers compile here)
+    double renderSeconds = 0.0;           ///< wall time from the first dispatch to the last
+    double deviceSeconds = 0.0;           ///< by timestamps, summed over dispatches
     double longestDispatchSeconds = 0.0;  ///< by timestamps
     std::uint64_t dispatches = 0;
-    std::uint64_t dispatchesCutShort = 0;  ///< thrown away and traced again in smaller parts
+    std::uint64_t dispatchesCutShort = 0;  ///< ended early by the driver and traced again in smaller parts
     std::uint64_t samples = 0;             ///< pixel samples taken, or light paths
     std::uint64_t cameraRays = 0, lightRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
     std::uint64_t nonFiniteSamples = 0;  ///< dropped; 0 unless something is wrong
-    bool filmOverflowed = false;         ///< some light was brighter than Film::largestRadiance
+    bool filmOverflowed = false;         ///< some radiance exceeded Film::largestRadiance
     std::uint64_t deviceBytes = 0;       ///< peak
-    /// Radiance (mean over pixels and channels, displayed) that the last allowed bounce added, and the one
-    /// before it.
+    /// Displayed radiance (mean over pixels and channels) of the last allowed bounce, of the bounce before
+    /// it, and of the whole image.
     double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0, meanRadiance = 0.0;
     std::uint32_t effectiveBounces =
         0;  ///< scattering events that can contribute: at most the scene's `bounces`
     bool directLightInClosedForm = false;
-    bool stopped = false;  ///< ended before all samples were taken
-    /// Some pixels lack samples, or light paths, that come before others which they have: the film shows what
-    /// there is, but no render can go on from it.
+    bool stopped = false;  ///< ended before all samples were traced
+    /// The samples of some pixels, or the light paths, have gaps in their numbers. The image is valid, but no
+    /// render can resume from the film.
     bool gaps = false;
 
-    bool limitedByBounces = false;  ///< more scattering events than `bounces` could contribute
+    bool limitedByBounces = false;  ///< paths with more scattering events than `bounces` could contribute
 
-    /// The bounce limit cut off a series whose terms were not yet negligible (more than 1 % of the image).
+    /// Whether the bounce limit truncated a series whose terms were not yet negligible (above 1 % of the
+    /// image).
     bool cutOffByBounces() const;
 };
 
@@ -105,7 +106,7 @@ struct RenderOutput {
     RenderStatistics statistics;
 };
 
-/// The device or the machine failed when there were samples already, which are not lost.
+/// The device or the machine failed after some samples were traced; output() holds these.
 class RenderFailure : public MachineError {
   public:
     RenderFailure(const std::string& line, RenderOutput output)
@@ -116,10 +117,10 @@ class RenderFailure : public MachineError {
     std::shared_ptr<RenderOutput> output_;
 };
 
-/// Renders the scene with its integrator. The film holds what was resumed, too. Throws UsageError if the
-/// direct light is asked for in closed form where there is none, or the device lacks what tuning asks for.
-/// Same scene, settings, seed and device give the same bits. Throws MachineError naming the stage and the
-/// driver if the device fails, a RenderFailure once there are samples.
+/// Renders the scene with its integrator. The film includes the resumed samples. Identical scene, settings,
+/// seed and device give a bitwise identical image. Throws UsageError if direct light in closed form is
+/// requested but does not apply, or if the device does not support the requested tuning. Throws MachineError
+/// with the stage and the driver if the device fails, or RenderFailure once there are samples.
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
 
 }  // namespace duolux

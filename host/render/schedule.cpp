@@ -8,9 +8,9 @@ namespace duolux {
 
 namespace {
 
-constexpr std::uint32_t kFirstSlots = 256;    // before any speed is known
-constexpr std::uint32_t kGranularity = 64;    // runs are multiples of so many slots
-constexpr std::uint32_t kBehindSlots = 2048;  // of a range that is resumed
+constexpr std::uint32_t kFirstSlots = 256;    // size of a run before the speed is known
+constexpr std::uint32_t kGranularity = 64;    // the size of a run is a multiple of this
+constexpr std::uint32_t kBehindSlots = 2048;  // slots in a resumed range
 
 }  // namespace
 
@@ -77,7 +77,7 @@ std::optional<WorkRange> Schedule::take(std::vector<WorkRange>& waiting, std::ui
 }
 
 std::optional<WorkRange> Schedule::next(double secondsPerSample, std::uint32_t laneSamples, Wanted wanted) {
-    // All of what is to be traced again, in any case: it leaves gaps.
+    // Retries are handed out in every mode, because they leave gaps.
     if (const auto range = take(retries_, laneSamples, Wanted::kAll)) return range;
     if (wanted == Wanted::kRetries) return std::nullopt;
     if (const auto range = take(behind_, laneSamples, wanted)) return range;

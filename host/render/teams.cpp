@@ -41,7 +41,7 @@ std::uint32_t Teams::begin(const vk::raii::CommandBuffer& commands, unsigned pla
     assert(items <= maxItems_);
     const std::uint32_t teams = (items + teamItems - 1) / teamItems;
     dispatches_[place] = {items, teamItems, teams};
-    // The dispatch in the other place uses other parts of the same buffers.
+    // The dispatch in the other place uses different parts of the same buffers.
     barrier(commands, Stage::eComputeShader | Stage::eTransfer,
             kShader | Access::eTransferRead | Access::eTransferWrite,
             Stage::eComputeShader | Stage::eTransfer, kShader | Access::eTransferWrite);

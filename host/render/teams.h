@@ -15,12 +15,12 @@ inline std::int64_t signed64(std::uint32_t low, std::uint32_t high) {
     return static_cast<std::int64_t>(std::uint64_t{high} << 32 | low);
 }
 
-/// How kernels share out the items of a dispatch (pixels, light paths): a team of lanes, a subgroup, takes
-/// the items of a range one after the other, so that all its lanes stay busy. Two dispatches may be in
+/// Distributes the items of a dispatch (pixels, light paths) over teams. A team is a subgroup whose lanes
+/// take the items of a range one after the other, so that all lanes stay busy. Two dispatches may be in
 /// flight, in the places 0 and 1.
 class Teams {
   public:
-    /// `maxItems`: of one dispatch.
+    /// `maxItems`: largest number of items in one dispatch.
     Teams(const Device& device, const Tuning& tuning, std::uint32_t maxItems);
 
     std::uint32_t lanes() const { return lanes_; }        ///< of a team
@@ -28,12 +28,12 @@ class Teams {
     std::uint32_t firstTeam(unsigned place) const { return place * maxItems_; }
     std::uint64_t deviceBytes() const { return progress_.allocated() + read_.allocated(); }
 
-    /// Items of each team where a lane may take up to `laneItems` of `items`. The more, the less the lanes of
-    /// a team wait for the last one; but there are enough teams to keep the device busy, as long as they are
-    /// full.
+    /// Number of items for each team if a lane may take up to `laneItems` of `items`. With more items, the
+    /// lanes of a team wait less for the last one, but there must be enough full teams to keep the device
+    /// busy.
     std::uint32_t share(std::uint32_t items, std::uint32_t laneItems) const;
 
-    /// Records a dispatch whose teams take `teamItems` each.
+    /// Records a dispatch with `teamItems` items for each team.
     template <typename Push>
     void record(const vk::raii::CommandBuffer& commands, const Kernel& kernel, const Push& push,
                 unsigned place, std::uint32_t items, std::uint32_t teamItems) {
@@ -42,7 +42,7 @@ class Teams {
         end(commands, place);
     }
 
-    /// Whether no team of the dispatch was cut short by the driver; once it is done.
+    /// Whether the driver let all loops of a finished dispatch run to their end.
     bool complete(unsigned place) const;
 
   private:
