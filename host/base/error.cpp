@@ -12,7 +12,7 @@ namespace {
 
 std::string inputErrorLine(std::string_view file, std::string_view place, std::string_view problem,
                            std::string_view remedy) {
-    // One short line, whatever the input file put into a name.
+    // The line stays short even if a name in the input file is long.
     constexpr std::size_t kLongest = 300;
     std::string line = printable(file);
     if (!place.empty()) line += fmt::format(": {}", shortened(place, kLongest));

@@ -7,7 +7,14 @@
 namespace duolux {
 
 /// Exit statuses of the program (a contract with scripts).
-enum class ExitStatus : int { kDone = 0, kMachineFailed = 1, kUsage = 2, kBadInput = 3, kInterrupted = 130, kTerminated = 143 };
+enum class ExitStatus : int {
+    kDone = 0,
+    kMachineFailed = 1,
+    kUsage = 2,
+    kBadInput = 3,
+    kInterrupted = 130,
+    kTerminated = 143
+};
 
 /// Base of all errors that are reported to the user as one line. what() is that line, without a trailing
 /// newline.
@@ -21,15 +28,15 @@ class Error : public std::runtime_error {
 };
 
 /// A scene, image or checkpoint that cannot be used: "FILE: PLACE: PROBLEM; REMEDY".
-/// `place` is "line 12" for text formats, a JSON path such as "camera.vfov" for JSON, empty where there is
-/// none. `remedy` says what would be right, as in "expected a number from 0 to 180".
+/// `place` is "line 12" for text formats, a JSON path such as "camera.vfov" for JSON, or empty. `remedy` says
+/// what would be right, for example "expected a number from 0 to 180".
 class InputError : public Error {
   public:
     InputError(std::string_view file, std::string_view place, std::string_view problem,
                std::string_view remedy);
 };
 
-/// Wrong use of the command line (exit status 2).
+/// Incorrect use of the command line (exit status 2).
 class UsageError : public Error {
   public:
     explicit UsageError(const std::string& line) : Error(ExitStatus::kUsage, line) {}

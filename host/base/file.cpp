@@ -58,7 +58,7 @@ struct Descriptor {
     }
 };
 
-/// Waits until a file or folder is on the disk, where the file system can tell.
+/// Waits until a file or folder is on the disk, if the file system supports this.
 void synchroniseDescriptor(int descriptor) {
     if (::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS) return;
     fail(errno);
@@ -68,21 +68,21 @@ fs::path folderOf(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Where bytes for a name go.
+/// The file to which a path refers.
 struct Destination {
-    fs::path path;                   ///< what symbolic links lead to
-    std::optional<struct stat> old;  ///< what is there
-    bool isStream = false;           ///< a device, a pipe, or a file that is open already: appended to
+    fs::path path;                   ///< after resolving symbolic links
+    std::optional<struct stat> old;  ///< the existing file
+    bool isStream = false;           ///< a device, a pipe, or a file that is already open: appended to
 };
 
-/// Links in /proc stand for open files.
+/// Links in /proc represent open files.
 bool isInProc(const fs::path& folder) {
     struct statfs status {};
     return ::statfs(folder.c_str(), &status) == 0 && status.f_type == PROC_SUPER_MAGIC;
 }
 
-/// In a folder like /tmp, another user's link may lead anywhere: as in the kernel (protected_symlinks), only
-/// one's own links and those of the folder's owner are followed there.
+/// In a shared folder such as /tmp, another user's link may lead anywhere. As in the kernel
+/// (protected_symlinks), only links of this user and of the folder's owner are followed there.
 bool mayFollow(const struct stat& link, const fs::path& folder) {
     struct stat status {};
     if (::stat(folder.c_str(), &status) != 0) return false;
@@ -117,7 +117,7 @@ Destination destinationOf(const fs::path& name) {
     return destination;
 }
 
-/// Permission to write is asked of the file, too, though its replacement needs only the folder's.
+/// Requires permission to write the file itself, although replacing it needs only the folder's permission.
 void requirePermission(const Destination& destination) {
     if (!destination.old) return;
     const char* path = destination.path.c_str();
@@ -125,18 +125,18 @@ void requirePermission(const Destination& destination) {
         if (::faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) != 0) fail(errno);
         return;
     }
-    constexpr mode_t kWritable = S_IWUSR | S_IWGRP | S_IWOTH;  // which root could ignore
+    constexpr mode_t kWritable = S_IWUSR | S_IWGRP | S_IWOTH;  // root could write without them
     if ((destination.old->st_mode & kWritable) == 0) throw std::runtime_error("the file is write-protected");
     const Descriptor file{::open(path, O_WRONLY | O_NONBLOCK | O_CLOEXEC)};
     if (file.value < 0) fail(errno);
 }
 
-/// Means that a file may exist which could be written into, though its folder takes no other.
+/// Whether the error means that the folder accepts no new files; an existing file may still be writable.
 bool isFolderForbidden(int error) {
     return error == EACCES || error == EPERM || error == EROFS;
 }
 
-/// A new file under a name that nobody can foresee, removed at the end unless it took another's place.
+/// A new file with an unpredictable name. The destructor removes it unless it was renamed.
 class Temporary {
   public:
     /// Throws std::system_error.
@@ -162,7 +162,7 @@ class Temporary {
 
     FileWriter& writer() { return *writer_; }
 
-    /// Gives it the owner and the permissions of the file that it is to replace, as far as that is allowed.
+    /// Copies owner and permissions from the file to be replaced, as far as permitted.
     void takeOver(const struct stat& old) const {
         struct stat own {};
         if (::fstat(descriptor_, &own) == 0 && (own.st_uid != old.st_uid || own.st_gid != old.st_gid) &&
@@ -172,7 +172,7 @@ class Temporary {
         static_cast<void>(::fchmod(descriptor_, old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO)));
     }
 
-    /// Returns 0, or what kept it from being renamed.
+    /// Returns 0, or the error code of a failed rename.
     int renameTo(const fs::path& path) {
         if (::rename(path_.c_str(), path.c_str()) != 0) return errno;
         path_.clear();
@@ -187,7 +187,7 @@ class Temporary {
 
 void writeAll(int file, const char* bytes, std::size_t count) {
     while (count > 0) {
-        // A signal that comes while a pipe's reader is waited for ends the waiting.
+        // A signal interrupts the wait for a pipe's reader.
         const ssize_t written = ::write(file, bytes, count);
         if (written < 0) fail(errno);
         bytes += written;
@@ -195,7 +195,7 @@ void writeAll(int file, const char* bytes, std::size_t count) {
     }
 }
 
-/// Copies a file over, or to the end of, one that cannot be replaced.
+/// Overwrites a file that cannot be replaced, or appends to a stream.
 void copyInto(const Destination& destination, int source) {
     const int flags = O_WRONLY | O_CLOEXEC | O_NOCTTY | (destination.isStream ? O_APPEND : 0);
     const Descriptor target{::open(destination.path.c_str(), flags)};
@@ -211,7 +211,7 @@ void copyInto(const Destination& destination, int source) {
     synchroniseDescriptor(target.value);
 }
 
-/// The names in a folder are on the disk. One that may not be read does without.
+/// Waits until the entries of a folder are on the disk. Skipped if the folder cannot be read.
 void synchroniseFolder(const fs::path& folder) {
     const Descriptor opened{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
     if (opened.value >= 0) synchroniseDescriptor(opened.value);
@@ -246,7 +246,7 @@ void writeTo(const Destination& destination, const Write& write) {
     copyInto(destination, temporary->writer().descriptor());
 }
 
-/// Calls `step` with the destination of a name; what it throws becomes a MachineError that names the file.
+/// Calls `step` with the destination of a name. Exceptions become a MachineError that names the file.
 void withDestination(const fs::path& name, const std::function<void(const Destination&)>& step) {
     std::string file = name.string();
     const auto failed = [&](std::string_view problem) {
@@ -310,7 +310,7 @@ void writeFile(const fs::path& path, std::string_view bytes) {
 }
 
 bool isSameFile(const fs::path& a, const fs::path& b) {
-    // Device and inode of each, or of the folder that it would be made in.
+    // Compares device and inode of the files or, if they do not exist, of their folders.
     const auto isSame = [](const fs::path& x, const fs::path& y) {
         struct stat first {};
         struct stat second {};
@@ -323,7 +323,7 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
         return !x.old && !y.old && x.path.filename() == y.path.filename() &&
                isSame(folderOf(x.path), folderOf(y.path));
     } catch (const std::system_error&) {
-        return false;  // neither read nor written
+        return false;  // such a path can be neither read nor written
     }
 }
 

@@ -9,13 +9,13 @@
 
 namespace duolux {
 
-/// The whole file as bytes. Throws InputError if it cannot be read.
+/// Reads a whole file. Throws InputError if it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
-/// An empty file that is being written. Every failure throws std::system_error.
+/// Writes to an empty file. Every failure throws std::system_error.
 class FileWriter {
   public:
-    /// Takes over an open file.
+    /// Takes ownership of an open file.
     explicit FileWriter(int descriptor);
     ~FileWriter();
     FileWriter(const FileWriter&) = delete;
@@ -25,7 +25,7 @@ class FileWriter {
     std::uint64_t position() const;
     void seek(std::uint64_t position);
 
-    /// Waits until all is on the disk.
+    /// Waits until all data is on the disk.
     void synchronise();
     int descriptor() const;
 
@@ -33,22 +33,21 @@ class FileWriter {
     std::FILE* file_;
 };
 
-/// Writes a file so that a reader sees the old one or the complete new one, never a part: `write` fills a
-/// temporary in the same folder, which is renamed over `path` once it is on the disk, and removed if anything
-/// throws. The old file's permissions stay, and its owner where that is permitted; a write-protected file is
-/// not replaced.
-/// A symbolic link stays one: the file that it names is written. What is no regular file, as a device or a
-/// pipe, is written into, as is a file that cannot be replaced (in a folder without permission, or a mount).
-/// Throws MachineError naming `path`; errors of this program that `write` throws pass through.
+/// Writes a file atomically: a reader sees either the old file or the complete new one. `write` fills a
+/// temporary file in the same folder, which is renamed to `path` once it is on the disk, and removed if
+/// anything throws. The old file's permissions are kept, and its owner if permitted. A write-protected file
+/// is not replaced. A symbolic link is followed and kept. Devices and pipes are written to directly, as are
+/// files that cannot be replaced (in a folder without permission, or a mount point). Throws MachineError with
+/// `path`; duolux::Error exceptions of `write` pass through.
 void writeFileAtomically(const std::filesystem::path& path, const std::function<void(FileWriter&)>& write);
 
-/// Writes a whole file like that.
+/// Writes a whole file with writeFileAtomically.
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
 
-/// Whether two paths name the same file, which need not be there, however they are spelled and linked.
+/// Whether two paths name the same file, also through links or different spellings. It need not exist.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Throws MachineError if writeFileAtomically could not write the file now. Leaves nothing behind.
+/// Throws MachineError if writeFileAtomically could not write the file now. Leaves no files behind.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace duolux

@@ -13,17 +13,17 @@ namespace duolux {
 /// Bytes of address space that this process may use (`ulimit -v`); the largest number if there is no limit.
 std::uint64_t addressSpaceLimit();
 
-/// For the end of a message about a lack of memory: what limits the address space, if anything does.
+/// The end of an out-of-memory message: the limit on the address space, or nothing if there is none.
 std::string addressSpaceHint();
 
-/// What to throw where memory does not suffice for `what`; `remedy`: what would help, as in "expected a
-/// smaller size".
+/// The exception for a lack of memory for `what`. `remedy`: what would help, for example "expected a smaller
+/// size".
 MachineError outOfMemory(std::string_view what, std::string_view remedy);
 
-/// What to throw where a file does not fit into memory.
+/// The exception for a file that does not fit into memory.
 MachineError outOfMemoryReading(const std::filesystem::path& file);
 
-/// Carries out what reads a file; a lack of memory names it.
+/// Runs `step`, which reads a file. If memory runs out, the exception names the file.
 template <typename Step>
 auto withMemoryToRead(const std::filesystem::path& file, const Step& step) {
     try {

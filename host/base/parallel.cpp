@@ -30,7 +30,8 @@ void runOnThreads(std::size_t threads, const std::function<void()>& work) {
         while (pool.size() + 1 < threads)
             pool.emplace_back(work);
     } catch (const std::exception&) {
-        // No more threads, or no memory for their stacks: those that there are do all of it.
+        // The system has no more threads, or no memory for their stacks: the existing threads do all the
+        // work.
     }
     work();
 }  // joins

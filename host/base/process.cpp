@@ -22,7 +22,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
     return pointers;
 }
 
-/// This program's variables after those that are to take their place.
+/// Appends this program's environment variables, except those that `environment` already sets.
 void addOwnEnvironment(std::vector<std::string>& environment) {
     const std::vector<std::string> changed = environment;
     for (char** variable = environ; *variable != nullptr; ++variable) {

@@ -11,10 +11,10 @@ namespace duolux {
 
 namespace {
 
-constexpr double kBarInterval = 0.1;     // seconds between two drawings of a bar
-constexpr double kPlainInterval = 10.0;  // and of a plain line
+constexpr double kBarInterval = 0.1;     // seconds between two updates of the bar
+constexpr double kPlainInterval = 10.0;  // seconds between two plain lines
 constexpr int kMaxBarWidth = 40;
-constexpr int kTextWidth = 42;  // columns that the longest usual line needs beside its bar
+constexpr int kTextWidth = 42;  // columns that the longest usual line needs in addition to its bar
 
 std::string bar(double fraction, int width) {
     const int inner = width - 2;
@@ -25,7 +25,7 @@ std::string bar(double fraction, int width) {
     return '[' + cells + ']';
 }
 
-/// Progress that nobody can see is no reason to stop.
+/// Ignores failures: a render continues even if its progress cannot be shown.
 void show(std::FILE* out, const std::string& text) {
     std::fputs(text.c_str(), out);
     std::fflush(out);
@@ -68,7 +68,7 @@ std::string formatDuration(double seconds) {
 std::string progressLine(const ProgressState& state, int barWidth, bool finished) {
     const double fraction = finished ? (state.total > 0.0 ? std::min(state.done / state.total, 1.0) : 0.0)
                                      : progressFraction(state);
-    // 100 % only when nothing is left.
+    // Rounded down, so that 100 % appears only when the work is complete.
     std::string line = fmt::format("{:3.0f} %", std::floor(100.0 * fraction));
     if (barWidth >= 3) line += ' ' + bar(fraction, barWidth);
     if (state.seconds > 0.0) line += fmt::format(" {:.2f} Msamples/s", state.done / state.seconds * 1e-6);

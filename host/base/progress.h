@@ -7,28 +7,28 @@
 
 namespace duolux {
 
-/// Where long work stands. Units are whatever the work counts, for example samples.
+/// The state of a long task. Units are whatever the task counts, for example samples.
 struct ProgressState {
     double done = 0.0, total = 0.0;   ///< units
-    double seconds = 0.0;             ///< since the work began
-    std::optional<double> timeLimit;  ///< seconds after which the work stops by itself, done or not
+    double seconds = 0.0;             ///< since the task started
+    std::optional<double> timeLimit;  ///< seconds after which the task stops, even if it is not complete
 };
 
-/// Part of the work, or of the time limit if that is nearer: 0 to 1.
+/// Fraction of the work that is done, or of the time limit if that ends the task earlier: 0 to 1.
 double progressFraction(const ProgressState& state);
 
-/// Seconds until the work ends at the mean rate so far; nothing while there is no rate.
+/// Seconds until the task ends at the mean rate so far; empty while no rate is known.
 std::optional<double> secondsLeft(const ProgressState& state);
 
 /// "0:07", "12:34", "1:02:03".
 std::string formatDuration(double seconds);
 
 /// " 47 % [=======>       ] 1.32 Msamples/s, 0:12 left", or with `finished` "... 1.32 Msamples/s, 0:23 in
-/// all". The bar takes `barWidth` columns; there is none below 3.
+/// all". The bar takes `barWidth` columns; it is left out if `barWidth` is below 3.
 std::string progressLine(const ProgressState& state, int barWidth, bool finished);
 
-/// Reports progress to a stream: on a terminal as one line rewritten in place, otherwise as a plain line now
-/// and then. All times come from the caller, so it may be called as often as is convenient.
+/// Reports progress to a stream: on a terminal as one line that is rewritten in place, otherwise as plain
+/// lines at intervals. All times come from the caller, who may call update() as often as is convenient.
 class Progress {
   public:
     enum class Style : std::uint8_t { kQuiet, kPlain, kBar };
@@ -44,11 +44,11 @@ class Progress {
     void update(const ProgressState& state);
     void update(double done, double total, double seconds) { update({done, total, seconds, std::nullopt}); }
 
-    /// The last state again, as the final word; nothing if update() was never called.
+    /// Writes the final line with the last state; writes nothing if update() was never called.
     void finish();
 
-    /// Ends a line that a bar left open, so that something else can be printed; the next update() begins a
-    /// new one.
+    /// Ends the line of an open bar, so that something else can be printed. The next update() starts a new
+    /// line.
     void leaveLine();
 
   private:

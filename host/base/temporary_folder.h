@@ -11,13 +11,14 @@
 
 namespace duolux {
 
-/// A new empty folder that is removed with everything in it at the end of its scope. Throws MachineError if
-/// it cannot be made.
+/// A new empty folder that is removed with its contents at the end of its scope. Throws MachineError if it
+/// cannot be created.
 class TemporaryFolder {
   public:
     TemporaryFolder() {
         std::string name = (std::filesystem::temp_directory_path() / "duolux-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw MachineError(fmt::format("{}: cannot be made", name));
+        if (::mkdtemp(name.data()) == nullptr)
+            throw MachineError(fmt::format("{}: cannot create this folder", name));
         path_ = name;
     }
     ~TemporaryFolder() {

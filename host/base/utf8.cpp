@@ -15,7 +15,8 @@ std::optional<Utf8Character> firstUtf8(std::string_view text) {
         if ((byte & 0xC0u) != 0x80u) return std::nullopt;
         character = character << 6 | (byte & 0x3Fu);
     }
-    constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};  // shorter forms exist below these
+    constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800,
+                                      0x10000};  // smaller characters have shorter encodings
     const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
     if (character < kSmallest[count] || character > 0x10FFFF || surrogate) return std::nullopt;
     return Utf8Character{character, count};

@@ -12,10 +12,10 @@ struct Utf8Character {
     std::size_t bytes;
 };
 
-/// The first character of non-empty text, or nothing if its first byte starts no well-formed one.
+/// The first character of non-empty text; empty if the text does not start with a well-formed character.
 std::optional<Utf8Character> firstUtf8(std::string_view text);
 
-/// The characters of UTF-8 text; U+FFFD for every byte that is no part of a well-formed one.
+/// The characters of UTF-8 text, with U+FFFD for every byte that is not part of a well-formed character.
 std::u32string decodeUtf8(std::string_view text);
 
 }  // namespace duolux
