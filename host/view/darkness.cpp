@@ -12,14 +12,14 @@ namespace duolux {
 
 namespace {
 
-constexpr float kFewest = 0.02f;  // of the picture
+constexpr float kFewest = 0.02f;  // fraction of the image
 constexpr int kPaths = 4;
 
 bool any(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
 
-/// What the camera sees, and what is there.
+/// Inspects the surfaces that the camera sees and the emitters of the scene.
 class Inspection {
   public:
     explicit Inspection(const Scene& scene)
@@ -67,7 +67,7 @@ class Inspection {
         return frameCamera(choice, surface_, ViewSamples(surface_, illumination), aspectOf(scene_.render));
     }
 
-    /// What is emitted can become what the camera sees at some surface.
+    /// Whether any surface can turn the emitted component into visible light.
     bool anythingBecomesVisible() const {
         bool invisible = false, visible = false, fromInvisible = false, fromVisible = false;
         for (const std::uint32_t index : scene_.geometry.materials) {
@@ -87,7 +87,8 @@ class Inspection {
         return static_cast<float>(count) >= 0.95f * static_cast<float>(seen_.size());
     }
 
-    /// The mean of what white would show where the camera looks, or on the other sides of the same surfaces.
+    /// Mean radiance that white surfaces would reflect at the points that the camera sees, or on the other
+    /// side of the same surfaces.
     float onWhite(const Illumination& illumination, bool otherSide) const {
         float sum = 0.0f;
         for (std::size_t i = 0; i < seen_.size(); ++i) {
@@ -115,7 +116,7 @@ class Inspection {
         const Illumination illumination(surface_), bothSides(surface_, std::nullopt, true);
         const float here = onWhite(illumination, false);
         const float there = onWhite(illumination, true), turned = onWhite(bothSides, false);
-        // Several times as much as there is: the rest is leaks and noise.
+        // The other side must be this many times brighter; smaller ratios may be light leaks and noise.
         constexpr float kMuchMore = 20.0f;
         if (turned > kMuchMore * here && turned >= there) return Darkness::kFacingAway;
         if (there > kMuchMore * here) return Darkness::kBehind;

@@ -7,28 +7,28 @@
 
 namespace duolux {
 
-/// Why a picture is dark.
+/// Why an image is dark.
 enum class Darkness : std::uint8_t {
     kNothingEmits,
-    kLooksPast,       ///< the camera looks past the scene, or nearly so
-    kOnlyEmitters,    ///< it sees emitters alone, which emit no visible light
+    kLooksPast,       ///< the camera sees nothing of the scene, or almost nothing
+    kOnlyEmitters,    ///< it sees only emitters, which emit no visible light
     kNoBounces,       ///< no light scatters, and what the camera sees emits no visible light
-    kNothingVisible,  ///< no reflectance turns what is emitted into visible light
-    kBlackSurfaces,   ///< what it sees reflects nothing
-    kBehind,          ///< it stands behind or inside of surfaces: their other sides are lit
-    kFacingAway,      ///< the emitters' front sides face away
-    kEnclosed,        ///< other surfaces are between the emitters and what it sees
-    kUnknown          ///< light does arrive
+    kNothingVisible,  ///< no reflectance matrix turns the emitted component into visible light
+    kBlackSurfaces,   ///< the surfaces that it sees reflect nothing
+    kBehind,          ///< it is behind or inside surfaces whose other sides are lit
+    kFacingAway,      ///< the front sides of the emitters face away
+    kEnclosed,        ///< other surfaces block the light of the emitters
+    kUnknown          ///< none of these: light arrives
 };
 
 struct DarkReason {
     Darkness darkness;
-    std::string material;  ///< of the surfaces that it sees most, or, facing away, of the emitters
-    float filled;          ///< the part of the picture in which there is something
-    Camera better;         ///< that would be chosen automatically
+    std::string material;  ///< the material that it sees most or, with kFacingAway, of the emitters
+    float filled;          ///< fraction of the image in which there are surfaces
+    Camera better;         ///< the camera that would be chosen automatically
 };
 
-/// The likely cause, by rays from the camera and paths from what it sees to the emitters.
+/// The likely cause, found by rays from the camera and paths from the surfaces that it sees to the emitters.
 DarkReason whyDark(const Scene& scene);
 
 }  // namespace duolux

@@ -15,7 +15,7 @@ namespace duolux {
 
 namespace {
 
-/// In the coordinates of the scene.
+/// A place for the luminaire, in the coordinates of the scene.
 struct Place {
     glm::vec3 centre;
     Rectangle rectangle;
@@ -23,7 +23,7 @@ struct Place {
 
 Place placeOf(const glm::vec3& centre, float side, const glm::vec3& lit, const glm::vec3& up) {
     const glm::vec3 towards = glm::normalize(lit - centre);
-    // Across the way to what is lit, even if that is along `up`.
+    // Perpendicular to the direction of the light, even if this is parallel to `up`.
     glm::vec3 across = glm::cross(up, towards);
     if (glm::length(across) < 1e-3f) across = glm::cross(glm::vec3(up.y, up.z, up.x), towards);
     const glm::vec3 edge1 = side * glm::normalize(across);
@@ -31,7 +31,7 @@ Place placeOf(const glm::vec3& centre, float side, const glm::vec3& lit, const g
     return {centre, {centre - 0.5f * (edge1 + edge2), edge1, edge2}};
 }
 
-/// Nothing is between the camera and the rectangle's centre and corners.
+/// Whether nothing is between the camera and the centre and corners of the rectangle.
 bool isFree(const Surface& surface, const glm::vec3& camera, const Place& place) {
     const auto& [origin, edge1, edge2] = place.rectangle;
     const glm::vec3 from = surface.toLocal(glm::dvec3(camera));
@@ -42,9 +42,9 @@ bool isFree(const Surface& surface, const glm::vec3& camera, const Place& place)
     });
 }
 
-/// Above, beside and behind the camera, far enough behind it that no corner reaches into its view, whatever
-/// its angle; of such places the first that lights about as much of what is seen as any. None if walls are in
-/// the way of all.
+/// A place above, beside and behind the camera, far enough behind that no corner is in view for any angle of
+/// view. Of several places, the first that lights about as much of the visible surface as the best one. Empty
+/// if walls block all of them.
 std::optional<Place> openPlace(const Surface& surface, const Camera& camera, float aspect, float distance,
                                const glm::vec3& lit) {
     constexpr std::array<glm::vec2, 4> kAsides{{{0.3f, 0.8f}, {-0.3f, 0.8f}, {0.8f, 0.1f}, {0.3f, -0.8f}}};
@@ -68,7 +68,7 @@ std::optional<Place> openPlace(const Surface& surface, const Camera& camera, flo
     return std::nullopt;
 }
 
-/// All corners are beyond one of the planes that bound the view.
+/// Whether all corners are beyond one of the planes that bound the view.
 bool isOutOfView(const Place& place, const Camera& camera, float aspect) {
     constexpr float kMargin = 1.1f;
     const ViewFrame frame(camera);
@@ -90,7 +90,8 @@ bool isOutOfView(const Place& place, const Camera& camera, float aspect) {
     return behind || above || below || left || right;
 }
 
-/// The roomiest place around the camera that it does not see: walls close to a luminaire would be too bright.
+/// The place with the most clearance around the camera that is out of view: walls close to a luminaire would
+/// be too bright.
 Place enclosedPlace(const Surface& surface, const Camera& camera, float aspect, float distance,
                     const glm::vec3& lit) {
     constexpr int kDirections = 96, kProbes = 32;
@@ -105,7 +106,7 @@ Place enclosedPlace(const Surface& surface, const Camera& camera, float aspect, 
         }
         return least;
     };
-    // At the camera itself, in the end: so small that it does not matter.
+    // The fallback is a tiny luminaire just behind the camera.
     Place best = placeOf(camera.position - 1e-3f * distance * frame.forward, 1e-3f * distance, lit, frame.up);
     float most = 0.0f;
     for (int i = 0; i < kDirections; ++i) {
@@ -114,7 +115,7 @@ Place enclosedPlace(const Surface& surface, const Camera& camera, float aspect, 
         const float way = hit ? hit->distance : 1.0f;
         for (const float part : {0.3f, 0.5f, 0.7f}) {
             const glm::vec3 point = eye + part * way * direction;
-            // Rather above than below.
+            // Places above the camera are preferred.
             const float room = clearance(point) * (glm::dot(direction, frame.up) > 0.0f ? 1.0f : 0.5f);
             if (room <= most || glm::distance(point, aim) < 1e-4f || !surface.sees(point, aim)) continue;
             const auto side =
@@ -128,8 +129,8 @@ Place enclosedPlace(const Surface& surface, const Camera& camera, float aspect, 
     return best;
 }
 
-/// Scales what the luminaire, the last triangles of the scene, emits so that what the camera sees shows
-/// `wanted` on average.
+/// Scales the emission of the luminaire (the last triangles of the scene) so that the mean radiance of white
+/// surfaces in view is `wanted`.
 void calibrate(Scene& scene, std::size_t firstTriangle, float wanted) {
     if (scene.geometry.triangles.size() == firstTriangle) return;
     const std::uint32_t material = scene.geometry.materials.back();
@@ -139,7 +140,7 @@ void calibrate(Scene& scene, std::size_t firstTriangle, float wanted) {
     lookThrough(scene.camera, aspectOf(scene.render), surface,
                 [&](const SurfacePoint& point, std::uint32_t seed) {
                     if (!scatters(surface.materialOf(point.triangle), point.front)) return;
-                    constexpr float kMost = 4.0f;  // close to the luminaire, where there is no end
+                    constexpr float kMost = 4.0f;  // limits the unbounded values close to the luminaire
                     sum += static_cast<double>(std::min(illumination.onWhite(point, seed, 2), kMost));
                     count += 1.0;
                 });
@@ -173,8 +174,7 @@ void addDefaultLight(Scene& scene, const Surface& surface) {
     const Camera& camera = scene.camera;
     const glm::vec3 forward = ViewFrame(camera).forward;
 
-    // What to light lies ahead of the camera: the middle of the scene, or the target if the camera is in the
-    // scene.
+    // The luminaire lights the middle of the scene, or the target if the camera is inside the scene.
     const bool inside = glm::all(glm::greaterThan(camera.position, bounds.lower)) &&
                         glm::all(glm::lessThan(camera.position, bounds.upper));
     const float ahead = glm::dot(0.5f * (bounds.lower + bounds.upper) - camera.position, forward);
@@ -185,8 +185,8 @@ void addDefaultLight(Scene& scene, const Surface& surface) {
     const bool enclosed = !place;
     if (enclosed) place = enclosedPlace(surface, camera, aspectOf(scene.render), distance, lit);
 
-    // A small Lambertian source on the axis gives the irradiance E_inv A / r^2, and white reflects irradiance
-    // / pi.
+    // A small Lambertian source on the axis gives the irradiance E_inv A / r^2; white reflects irradiance /
+    // pi.
     constexpr float kWhite = 0.8f;
     const float squaredDistance = glm::dot(lit - place->centre, lit - place->centre);
     const float area = glm::length(glm::cross(place->rectangle.edge1, place->rectangle.edge2));

@@ -4,20 +4,20 @@
 
 namespace duolux {
 
-/// Some triangle has a material that emits.
+/// Whether any triangle has a material that emits.
 bool anyEmitter(const Scene& scene);
 
-/// How brightly the emitters light what a camera sees, or the surface as a whole if that is more: what white
-/// would show, or emits, up to 1, on average.
+/// How brightly the emitters light the surfaces that a camera sees, or the whole surface if that is brighter:
+/// the mean, up to 1, of the radiance that white would reflect plus the emitted radiance.
 float brightnessFor(const Camera& camera, float aspect, const Surface& surface,
                     const Illumination& illumination, const ViewSamples& samples);
 
-/// Adds a rectangular luminaire above, beside and behind the camera, which faces what the camera sees; it
-/// cannot come into the picture, and emits no visible light. Where walls are in the way it stands in the
-/// roomiest place around the camera that is not in view. Its radiance is such that a white surface in the
-/// middle of the scene shows about 0.8 where it faces the luminaire, or in a closed room, where light comes
-/// back from all sides, what the camera sees shows half of that on average. Needs the scene's camera and
-/// geometry; `surface` is without it.
+/// Adds a rectangular luminaire above, beside and behind the camera. It faces the surfaces that the camera
+/// sees, is out of view, and emits no visible light. If walls are in the way, it is placed out of view where
+/// there is the most clearance around the camera. A white surface in the middle of the scene that faces the
+/// luminaire reflects a radiance of about 0.8. In a closed room, where walls return the light, the mean of
+/// white surfaces in view is half of this. Requires the scene's camera and geometry; `surface` excludes the
+/// luminaire.
 void addDefaultLight(Scene& scene, const Surface& surface);
 
 }  // namespace duolux

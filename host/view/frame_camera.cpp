@@ -16,7 +16,7 @@ constexpr float kDefaultVfov = 40.0f;
 constexpr double kMargin = 1.05;
 const glm::dvec3 kUp(0.0, 1.0, 0.0);
 
-/// Points that are in view if all of what is framed is: all corners, or those that lie farthest out in many
+/// Points that are all in view only if everything framed is: all corners, or the outermost ones in many
 /// directions.
 std::vector<glm::dvec3> cornersOf(const Surface& surface) {
     std::vector<glm::dvec3> corners;
@@ -77,7 +77,7 @@ class Framer {
     struct View {
         Frustum frustum;
         float worth = -1.0f;
-        float unseen = 0.0f;  // the part of the samples that no candidate saw
+        float unseen = 0.0f;  // fraction of the samples that no candidate saw
     };
 
     float vfov() const { return choice_.vfov.value_or(kDefaultVfov); }
@@ -88,14 +88,14 @@ class Framer {
         return {glm::vec3(0.0f), forward, right, up, tangent * aspect_, tangent};
     }
 
-    /// As near as all points are within the frustum with some margin, and in the middle; if there is a target
-    /// it is the middle.
+    /// Places the eye as near as possible with all points within the frustum, including a margin. The points
+    /// are centred, or the target is, if there is one.
     void placeEye(Frustum& frustum, const std::vector<glm::dvec3>& points) const {
         const glm::dvec3 forward(frustum.forward), right(frustum.right), up(frustum.up);
         const double tangentX = static_cast<double>(frustum.tangentX) / kMargin;
         const double tangentY = static_cast<double>(frustum.tangentY) / kMargin;
-        // An eye sees a point if, of both offsets, |x| <= tangentX z and |y| <= tangentY z. The largest
-        // values of x - tangentX z and so on say where the four planes of the frustum touch.
+        // A point is in view if its offset satisfies |x| <= tangentX z and |y| <= tangentY z. The largest
+        // values of x - tangentX z and so on determine the four planes of the frustum.
         glm::dvec4 touch(-1e300);
         double nearest = 1e300;
         const glm::dvec3 middle = target_ ? glm::dvec3(*target_) : glm::dvec3(0.0);
@@ -106,7 +106,7 @@ class Framer {
                 touch, glm::dvec4(x - tangentX * z, -x - tangentX * z, y - tangentY * z, -y - tangentY * z));
             nearest = std::min(nearest, z);
         }
-        constexpr double kLeastDepth = 0.02;  // in units of what is framed
+        constexpr double kLeastDepth = 0.02;  // relative to the radius of what is framed
         glm::dvec2 across(0.0);
         double depth = nearest - kLeastDepth * radius_;
         if (target_) {
@@ -139,7 +139,7 @@ class Framer {
             for (std::size_t i = begin; i < end; ++i) {
                 Frustum frustum = frustumOf(-directions[i].towardsEye, vfov());
                 placeEye(frustum, outermost_);
-                // A target on a surface is not hidden by that.
+                // A surface does not hide a target that lies on it.
                 const bool hidden =
                     target_ && !surface_.sees(frustum.eye, *target_ - 1e-3f * frustum.forward);
                 const float preference = directions[i].preference * (hidden ? 0.3f : 1.0f);
@@ -157,7 +157,7 @@ class Framer {
         return best;
     }
 
-    /// The position is given, the target is not.
+    /// For a choice with a position but no target.
     Camera fromPosition() const {
         const glm::vec3 eye = surface_.toLocal(*choice_.position);
         glm::vec3 lower(1e30f), upper(-1e30f);
@@ -183,7 +183,7 @@ class Framer {
         return camera(eye, eye + (hit ? std::max(hit->distance, 1e-3f) : 1.0f) * best.forward, angle);
     }
 
-    /// The vertical angle that takes in everything, within limits.
+    /// The vertical angle of view that covers everything, within limits.
     float angleAround(const glm::vec3& eye, const glm::vec3& target) const {
         if (choice_.vfov) return *choice_.vfov;
         const glm::vec3 forward = glm::normalize(target - eye);
@@ -214,16 +214,17 @@ class Framer {
     const ViewSamples& samples_;
     float aspect_;
     ViewAxes axes_;
-    std::optional<glm::vec3> target_;  // local, if it is given
+    std::optional<glm::vec3> target_;  // in local coordinates, if given
     std::vector<glm::dvec3> corners_, outermost_;
-    double radius_ = 1.0;  // of what is framed
+    double radius_ = 1.0;  // of the framed points
 };
 
 }  // namespace
 
 namespace {
 
-/// An orthographic one shows as much as the perspective one at its target, unless its height is given.
+/// An orthographic camera shows the same area as the perspective camera at its target, unless its height is
+/// given.
 Camera asChosen(Camera camera, const CameraChoice& choice) {
     camera.type = choice.type.value_or(CameraType::kPerspective);
     if (camera.type == CameraType::kOrthographic) {

@@ -5,17 +5,17 @@
 
 namespace duolux {
 
-/// A camera with all that `choice` says; the rest is such that the picture, of width over height `aspect`,
-/// shows much of the surface:
-/// - a three-quarter view from above, from where most of the surface is seen, lit and from its front, and as
-///   near as all of it stays in view;
-/// - the open side of a box, straight;
-/// - the inside of a closed room, from near a wall with a wide angle, if that shows more.
-/// `choice` does not contradict itself. In the coordinates of the scene.
+/// Completes `choice` to a camera whose image, with the ratio `aspect` of width to height, shows much of the
+/// surface. The view is one of these:
+/// - a three-quarter view from above that shows the most lit front sides, as near as possible with all of the
+///   surface in view;
+/// - a straight view into the open side of a box;
+/// - a wide-angle view of a closed room from near a wall, if this shows more.
+/// `choice` must be consistent. In the coordinates of the scene.
 Camera frameCamera(const CameraChoice& choice, const Surface& surface, const ViewSamples& samples,
                    float aspect);
 
-/// Of a choice that has position and target.
+/// The camera of a choice that has both position and target.
 Camera completeCamera(const CameraChoice& choice);
 
 }  // namespace duolux

@@ -15,12 +15,12 @@ float mean(const glm::vec3& channels) {
     return (channels.x + channels.y + channels.z) / 3.0f;
 }
 
-/// Cosine-distributed about the normal.
+/// A random direction, cosine-distributed about the normal.
 glm::vec3 scattered(const glm::vec3& normal, SmallRandom& random) {
     const float z = 1.0f - 2.0f * random.next();
     const float phi = glm::two_pi<float>() * random.next();
     const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    // A point of the unit sphere that touches the surface.
+    // A uniform point on the unit sphere that is tangent to the surface.
     const glm::vec3 sum = normal + glm::vec3(r * std::cos(phi), r * std::sin(phi), z);
     const float length = glm::length(sum);
     return length > 1e-3f ? sum / length : normal;
@@ -80,7 +80,7 @@ float Illumination::direct(const SurfacePoint& point, const glm::vec3& random) c
     float cosineThere = -glm::dot(emitter.normal, direction);
     if (emitter.both) cosineThere = std::abs(cosineThere);
     if (!(cosine > 0.0f && cosineThere > 0.0f) || !surface_.sees(origin, at, point.triangle)) return 0.0f;
-    // The density per area is radiance (twice that for both sides) over power.
+    // The density per unit area is the radiance (twice the radiance for both sides) divided by the power.
     const float perRadiance = static_cast<float>(power_) / (emitter.both ? 2.0f : 1.0f);
     return cosine * cosineThere / squared * perRadiance / glm::pi<float>();
 }

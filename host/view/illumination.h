@@ -11,27 +11,27 @@ namespace duolux {
 /// A point of a surface, on one of its sides.
 struct SurfacePoint {
     glm::vec3 position;
-    glm::vec3 normal;  ///< unit, on the side that is meant
+    glm::vec3 normal;  ///< unit, on the point's side
     std::uint32_t triangle;
     bool front;
 };
 
-/// The point that a ray from `origin` meets, on the side that it comes from.
+/// The point of a ray's hit, on the side from which the ray comes.
 SurfacePoint pointOf(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction,
                      const Surface::Hit& hit);
 
-/// How brightly the emitters of a scene light its surfaces, estimated by a few random paths under ordinary
-/// global illumination, whatever the scene's reflectance. Means over the channels.
+/// Estimates how brightly the emitters of a scene light its surfaces, by a few random paths with ordinary
+/// global illumination, whatever the scene's reflectance matrices. Values are means over the channels.
 class Illumination {
   public:
-    /// By all emitters, or those of one material; as they are, or all from both sides.
+    /// Uses all emitters, or those of one material; emitting as specified, or all of them on both sides.
     explicit Illumination(const Surface& surface, std::optional<std::uint32_t> material = std::nullopt,
                           bool bothSides = false);
 
-    /// Some triangle emits invisible light, which lights others.
+    /// Whether any triangle emits invisible light, which lights other surfaces.
     bool lights() const { return !emitters_.empty(); }
 
-    /// Radiance that a white surface would reflect here. The same for the same seed.
+    /// Radiance that a white surface would reflect here; deterministic for a given seed.
     float onWhite(const SurfacePoint& point, std::uint32_t seed, int paths) const;
 
     /// Visible radiance that the surface itself emits here.
@@ -40,7 +40,7 @@ class Illumination {
   private:
     struct Emitter {
         std::uint32_t triangle;
-        double powerBefore, power;  // of all emitters before, and its own
+        double powerBefore, power;  // total power of the preceding emitters, and the emitter's own power
         glm::vec3 normal;
         float radiance;
         bool both;
@@ -53,7 +53,7 @@ class Illumination {
     double power_ = 0.0;
 };
 
-/// The side of this material's surfaces reflects light.
+/// Whether this side of surfaces with this material reflects light.
 bool scatters(const Material& material, bool front);
 
 /// Uniform random numbers in [0, 1) from SplitMix64 (Steele, Lea, Flood 2014).

@@ -10,15 +10,15 @@ namespace duolux {
 
 namespace {
 
-constexpr int kDirections = 64;      // that probe what a point is enclosed by
-constexpr float kEnclosed = 0.9f;    // the part of them that meets something
-constexpr float kClearance = 0.12f;  // of the distance to the wall behind the camera
+constexpr int kDirections = 64;      // rays that test whether a point is enclosed
+constexpr float kEnclosed = 0.9f;    // fraction of the rays that must hit a surface
+constexpr float kClearance = 0.12f;  // fraction of the distance to the wall behind the camera
 constexpr std::size_t kHearts = 2, kProbes = 24;
 
-/// A point of empty space, and what is around it.
+/// A point in empty space, and statistics of the surfaces around it.
 struct Heart {
     glm::vec3 position;
-    float hits = 0.0f, fronts = 0.0f;  // parts of all directions
+    float hits = 0.0f, fronts = 0.0f;  // fractions of all directions
     float room = 0.0f;                 // mean distance
 };
 
@@ -34,7 +34,8 @@ Heart probe(const Surface& surface, const glm::vec3& position) {
     return heart;
 }
 
-/// The roomiest enclosed points: the middle, and those halfway from a surface to what is opposite.
+/// The enclosed points with the most room. Candidates are the middle of the scene and points halfway between
+/// opposite surfaces.
 std::vector<Heart> findHearts(const Surface& surface, const ViewSamples& samples) {
     std::vector<glm::vec3> positions{glm::vec3(0.0f)};
     for (std::size_t k = 0; k < kProbes && samples.size() > 0; ++k) {
@@ -57,7 +58,7 @@ std::vector<Heart> findHearts(const Surface& surface, const ViewSamples& samples
     return hearts;
 }
 
-/// Without emitters that tell where the light is: a hollow whose fronts are inside.
+/// Whether the surroundings are a room, judged without emitters: a hollow whose front sides face inwards.
 bool isRoom(const Heart& heart, const ViewSamples& samples, float unseen) {
     constexpr float kFronts = 0.7f, kRound = 0.85f, kContents = 0.04f;
     return heart.fronts > kFronts * heart.hits &&

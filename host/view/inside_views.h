@@ -7,21 +7,22 @@
 
 namespace duolux {
 
-/// A camera inside of what encloses it.
+/// A camera inside a closed room.
 struct InsideView {
     glm::vec3 eye, target;
     float vfov;
     float worth;  ///< as ViewSamples::worthOf
 };
 
-/// The best view of a closed room from near one of its walls; none if nothing is enclosed, or the scene is
-/// rather a solid body: not lit by its own emitters, and with fronts outside, or neither hollow and round nor
-/// holding anything that is not seen from outside. `unseen`: the part of the samples that is not.
+/// The best view of a closed room from near one of its walls. Empty if the scene encloses no space or is a
+/// solid body: its own emitters do not light it, and its front sides face outwards, or it is neither hollow
+/// and round nor contains anything that is hidden from outside. `unseen`: the fraction of the samples that
+/// are hidden from outside.
 std::optional<InsideView> bestInsideView(const Surface& surface, const ViewSamples& samples,
                                          const ViewAxes& axes, float aspect, std::optional<float> vfov,
                                          const std::optional<glm::vec3>& target, float unseen);
 
-/// A wide vertical angle.
+/// The wide vertical angle of view for an inside view.
 float insideVfov(float aspect);
 
 }  // namespace duolux

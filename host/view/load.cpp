@@ -46,7 +46,7 @@ SceneFile readScene(const std::filesystem::path& path, Reading reading) {
     throw InputError(path.string(), "", "is not a scene by its extension", "expected .obj or .json");
 }
 
-/// Camera and lamp.
+/// Chooses camera and lamp.
 class View {
   public:
     View(Scene& scene, std::size_t framedTriangles)
@@ -74,7 +74,7 @@ class View {
     float aspect_;
 };
 
-/// A place of the file in the scene's coordinates.
+/// Converts a point from the file's coordinates to the scene's.
 glm::dvec3 withinScene(const Scene& scene, const char* what, const glm::dvec3& place) {
     const glm::dvec3 local = place - scene.origin;
     if (glm::any(glm::greaterThan(glm::abs(local), glm::dvec3(kLargestCoordinate)))) {
@@ -122,8 +122,7 @@ void chooseBounces(Scene& scene, const SceneFile& read, const SceneChoices& choi
     } else if (!read.hasBounces && seriesMayGrow(scene)) {
         scene.render.bounces = kBouncesOfGrowth;
         scene.warnings.push_back(fmt::format(
-            "light may grow with every bounce, and nothing says how many there are: the picture is "
-            "that of {}",
+            "light may grow with every bounce, and the number of bounces is not specified: using {}",
             kBouncesOfGrowth));
     }
 }

@@ -7,7 +7,7 @@
 
 namespace duolux {
 
-/// Axes of a camera, unit and orthogonal.
+/// The axes of a camera; orthonormal.
 struct ViewFrame {
     glm::vec3 forward, right, up;
 
@@ -23,7 +23,8 @@ inline float aspectOf(const RenderSettings& render) {
 
 inline constexpr int kLooksAcross = 20;  ///< rays of lookThrough in each direction
 
-/// Calls visit(point, number from 1 on) with what a camera sees, by a few rays spread over its picture.
+/// Calls visit(point, number), with numbers from 1 on, for the points that a camera sees by a few rays spread
+/// over its image.
 template <typename Visit>
 void lookThrough(const Camera& camera, float aspect, const Surface& surface, const Visit& visit) {
     const ImagePlane plane = imagePlane(camera, static_cast<double>(aspect));

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kMostExact = 20'000;  // triangles
 constexpr std::size_t kMostClustered = 150'000;
-constexpr std::size_t kMostEmitters = 50'000;  // that are kept as they are
+constexpr std::size_t kMostEmitters = 50'000;  // emitting triangles that are kept unchanged
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
-/// The bounds of some triangles, in coordinates of the surface.
+/// The bounds of some triangles, in the surface's coordinates.
 struct Cube {
     glm::vec3 centre{0.0f};
     float halfSide = 1.0f;
@@ -37,7 +37,7 @@ Cube cubeAround(const Surface& surface, std::size_t firstTriangle, std::size_t e
     return longest > 0.0f ? Cube{0.5f * (lower + upper), 0.5f * longest} : Cube{};
 }
 
-/// Vertices by the cell of a grid that they are in.
+/// Groups vertices by the cells of a grid.
 class Clusters {
   public:
     Clusters(const Surface& surface, const Cube& cube, std::uint32_t cellsAcross)
@@ -74,7 +74,7 @@ class Clusters {
     std::uint32_t cellAt(const glm::vec3& local) const {
         const auto across = static_cast<float>(across_);
         const glm::vec3 cell = glm::floor(((local - cube_.centre) / cube_.halfSide * 0.5f + 0.5f) * across);
-        // Vertices of no triangle, or of those that another grid is for, may be anywhere.
+        // Unused vertices, and those of triangles in another grid, may be outside.
         if (!glm::all(glm::greaterThanEqual(cell, glm::vec3(-1.0f))) ||
             !glm::all(glm::lessThanEqual(cell, glm::vec3(across)))) {
             return kNoCell;
@@ -97,7 +97,7 @@ struct HashTriple {
     }
 };
 
-/// The same triangle begun with its smallest number.
+/// The same triangle, rotated so that its smallest index comes first.
 glm::uvec3 inOrder(const glm::uvec3& t) {
     if (t.x < t.y && t.x < t.z) return t;
     return t.y < t.z ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
@@ -126,12 +126,12 @@ class Simplifier {
         return triangles;
     }
 
-    /// What is framed and what is not have grids of their own: lamps far away must not make the cells larger
-    /// than the model.
+    /// Framed triangles and others have separate grids: distant lamps must not make the cells larger than the
+    /// model.
     std::vector<Surface::Triangle> clustered(std::uint32_t cellsAcross) const {
         std::vector<Surface::Triangle> triangles;
         addClustered(triangles, framed_, cellsAcross, 0, framedTriangles_);
-        // Triangles that are all smaller than a cell, far apart, leave nothing: a few of them stand for all.
+        // If all triangles are smaller than a cell and far apart, none remains: a few represent all of them.
         if (triangles.empty()) {
             for (std::size_t i = 0; i < framedTriangles_; i += framedTriangles_ / kMostExact + 1)
                 addExact(triangles, i);

@@ -9,7 +9,7 @@ namespace duolux {
 
 namespace {
 
-constexpr float kNearest = 1e-6f;  // of a hit, in units of the scene's radius
+constexpr float kNearest = 1e-6f;  // smallest distance of a hit, relative to the scene's radius
 
 std::vector<PrimitiveRef> boxesOf(const std::vector<Surface::Triangle>& triangles) {
     std::vector<PrimitiveRef> boxes(triangles.size());
@@ -32,7 +32,7 @@ struct Surface::Ray {
 
     Ray(const glm::vec3& from, const glm::vec3& along, float length, std::uint32_t skip)
         : origin(from), direction(along), end(length), skipped(skip) {
-        // A large number in place of infinity, whose product with 0 is not a number.
+        // A large number in place of infinity, because infinity times 0 is NaN.
         for (int i = 0; i < 3; ++i)
             inverse[i] = std::abs(along[i]) > 1e-30f ? 1.0f / along[i] : 1e30f;
     }
@@ -76,7 +76,7 @@ bool Surface::meets(std::uint32_t triangle, Ray& ray) const {
     return true;
 }
 
-/// In depth-first order without a stack: a subtree of n triangles takes 2n - 1 nodes.
+/// Depth-first traversal without a stack: a subtree over n triangles has 2n - 1 nodes.
 bool Surface::traverse(Ray& ray, bool any) const {
     bool found = false;
     for (std::size_t at = 0; at < tree_.nodes.size();) {

@@ -11,9 +11,9 @@
 
 namespace duolux {
 
-/// The triangles of a scene for questions of visibility on the host, in coordinates of its own: the scene's
-/// bounds, centred at the origin, fit the unit ball, whatever their size and place. Scenes of many triangles
-/// are simplified, so that a question takes microseconds and the whole fractions of a second. Deterministic.
+/// The triangles of a scene for visibility queries on the host, in local coordinates: the scene's bounds are
+/// centred at the origin and scaled to fit the unit ball. Scenes with many triangles are simplified, so that
+/// a query takes microseconds and all queries together take fractions of a second. Deterministic.
 class Surface {
   public:
     static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -21,7 +21,7 @@ class Surface {
     struct Triangle {
         glm::vec3 corner, edge1, edge2;
         std::uint32_t material;
-        bool framed;  ///< belongs to what a camera should show; luminaires given apart from meshes do not
+        bool framed;  ///< a camera should show it; false for luminaires that are not part of a mesh
 
         glm::vec3 areaVector() const { return 0.5f * glm::cross(edge1, edge2); }
     };
@@ -29,10 +29,10 @@ class Surface {
     struct Hit {
         std::uint32_t triangle;
         float distance;
-        bool front;  ///< the side that the ray meets
+        bool front;  ///< whether the ray hits the front side
     };
 
-    /// The scene must stay. Its first `framedTriangles` triangles are what a camera should show.
+    /// The scene must outlive this object. A camera should show its first `framedTriangles` triangles.
     Surface(const Scene& scene, std::size_t framedTriangles);
 
     const Scene& scene() const { return *scene_; }
@@ -43,13 +43,13 @@ class Surface {
 
     glm::vec3 toLocal(const glm::dvec3& point) const { return {(point - centre_) * scale_}; }
     glm::dvec3 toScene(const glm::vec3& point) const { return glm::dvec3(point) / scale_ + centre_; }
-    double scale() const { return scale_; }  ///< lengths here over lengths in the scene
+    double scale() const { return scale_; }  ///< ratio of local lengths to lengths in the scene
 
-    /// The nearest triangle but `skipped` along a unit direction.
+    /// The nearest triangle along a unit direction, except `skipped`.
     std::optional<Hit> firstHit(const glm::vec3& origin, const glm::vec3& direction,
                                 std::uint32_t skipped = kNone) const;
 
-    /// No triangle but `skipped` lies between the two points.
+    /// Whether no triangle, except `skipped`, lies between two points.
     bool sees(const glm::vec3& from, const glm::vec3& to, std::uint32_t skipped = kNone) const;
 
   private:

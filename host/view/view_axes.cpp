@@ -8,7 +8,7 @@ namespace duolux {
 
 namespace {
 
-constexpr float kAzimuth = 30.0f, kElevation = 26.0f;  // of the view that is liked best, in degrees
+constexpr float kAzimuth = 30.0f, kElevation = 26.0f;  // of the preferred view, in degrees
 
 }  // namespace
 
@@ -46,11 +46,11 @@ std::vector<OutsideDirection> outsideDirections(const ViewAxes& axes) {
     };
     for (int k = 0; k < 12; ++k) {
         const float azimuth = 30.0f * static_cast<float>(k);
-        const bool straight = k % 3 == 0;  // level, as into a box
+        const bool straight = k % 3 == 0;  // horizontal, as into an open box
         for (const float elevation : {straight ? 0.0f : 8.0f, 22.0f, 35.0f, 50.0f})
             add(azimuth, elevation, straight && elevation > 0.0f ? 0.93f : 1.0f);
         if (straight) {
-            add(azimuth, 65.0f, 0.9f);  // into wells
+            add(azimuth, 65.0f, 0.9f);  // into deep hollows
             add(azimuth + 30.0f, -25.0f, 0.35f);
         }
     }

@@ -10,10 +10,10 @@ namespace duolux {
 namespace {
 
 constexpr std::size_t kSamples = 768;
-constexpr int kPaths = 2;  // of each side of a sample
+constexpr int kPaths = 2;  // for each side of a sample
 constexpr float kOffset = 1e-5f;
 
-/// Of `count` points spread evenly over the area of the triangles that a camera should show.
+/// Spreads `count` points evenly over the area of the triangles that a camera should show.
 std::vector<SurfacePoint> spread(const Surface& surface, std::size_t count) {
     double whole = 0.0;
     for (const Surface::Triangle& t : surface.triangles())

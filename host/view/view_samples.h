@@ -8,7 +8,7 @@
 
 namespace duolux {
 
-/// What a camera takes in: its axes (unit, orthogonal) and half its width and height at distance 1.
+/// The view of a camera: its axes (orthonormal), and half its width and height at distance 1.
 struct Frustum {
     glm::vec3 eye, forward, right, up;
     float tangentX, tangentY;
@@ -16,25 +16,25 @@ struct Frustum {
     bool contains(const glm::vec3& point) const;
 };
 
-/// Points spread evenly over the surface that a camera should show, and what each of their two sides is worth
-/// in a picture: fronts more than backs and, where emitters light the scene, what they reach more than what
-/// they do not.
+/// Points spread evenly over the surface that a camera should show, with the worth of each of their two sides
+/// in an image: front sides are worth more than back sides and, if emitters light the scene, lit sides more
+/// than unlit ones.
 class ViewSamples {
   public:
     ViewSamples(const Surface& surface, const Illumination& illumination);
 
-    /// What a camera there sees, as a part of what there is: of the samples within the frustum that nothing
-    /// hides, with less weight where the view grazes the surface. `seen` notes them, if it is there.
+    /// The worth of the samples that a camera sees, relative to all samples: those within the frustum that
+    /// nothing hides, with less weight at grazing angles. `seen`, if not null, receives them.
     float worthOf(const Frustum& frustum, std::vector<bool>* seen = nullptr) const;
 
-    /// The part of the samples whose front a point sees, in all directions.
+    /// The fraction of the samples whose front side is seen from a point, in all directions.
     float frontsSeenFrom(const glm::vec3& point) const;
 
-    /// How brightly the emitters light the surface: what white would show, or emits, up to 1, by the brighter
-    /// side of every sample, on average.
+    /// How brightly the emitters light the surface: the mean over the samples of the radiance, up to 1, of
+    /// white on the brighter side (reflected or emitted).
     float brightness() const { return brightness_; }
 
-    /// What a side of the surface is worth.
+    /// The worth of one side of the surface.
     float worthOf(const SurfacePoint& point, float white) const;
 
     std::size_t size() const { return samples_.size(); }
@@ -51,7 +51,7 @@ class ViewSamples {
     float brightness_ = 0.0f;
 };
 
-/// Emitters matter where they show white surfaces, on average, at this part of white or more.
+/// Emitters matter if white surfaces have, on average, at least this percentage of white's radiance.
 inline constexpr int kDarkPercent = 5;
 inline constexpr float kDark = 0.01f * kDarkPercent;
 

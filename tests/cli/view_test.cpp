@@ -159,10 +159,10 @@ TEST_F(ViewCommand, DevicesCanBeReadByScripts) {
 TEST_F(ViewCommand, ShadowlessHasFewBouncesUnlessItIsSaidHowMany) {
     const std::string room = box("2", "0", "2") + "usemtl lamp\n" + kDown;
     EXPECT_THAT(render(room, {"--preset", "shadowless", "--report", "r.json"}).err,
-                HasSubstr("the picture is that of 4"));
+                HasSubstr("is not specified: using 4"));
     EXPECT_EQ(nlohmann::json::parse(contentsOf(folder_.path() / "r.json"))["settings"]["bounces"], 4);
     EXPECT_THAT(render(room, {"--preset", "shadowless", "--bounces", "6"}).err,
-                testing::AllOf(Not(HasSubstr("that of 4")), HasSubstr("the limit of 6 bounces")));
+                testing::AllOf(Not(HasSubstr("using 4")), HasSubstr("the limit of 6 bounces")));
     // A checkpoint of the default goes on by default.
     ASSERT_EQ(render(room, {"--blend", "1,1", "--checkpoint", "c.part"}).status, 0);
     EXPECT_EQ(render(room, {"--blend", "1,1", "--resume", "c.part"}).status, 0);

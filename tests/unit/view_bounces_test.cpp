@@ -28,7 +28,7 @@ TEST_F(ViewBounces, AreFewWhereLightMayGrowAndNothingSaysHowMany) {
     for (const Scene& scene : {with(shadowless), with("", withReflectance(1, 1)), with(material),
                                with("", withReflectance(0.5f, 1))}) {
         EXPECT_EQ(scene.render.bounces, 4u);
-        EXPECT_THAT(scene.warnings, Contains(HasSubstr("the picture is that of 4")));
+        EXPECT_THAT(scene.warnings, Contains(HasSubstr("is not specified: using 4")));
     }
     // What is said is kept, without a word.
     SceneChoices choices = withReflectance(1, 1);
