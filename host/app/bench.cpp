@@ -35,14 +35,15 @@ struct BenchOptions {
     bool quiet = false;
 };
 
-/// Rates are compared with those of the same work alone.
+/// Throws UsageError unless the baseline was measured with identical settings.
 void checkSettings(const std::map<std::string, double>& settings, const Baseline& baseline,
                    const std::string& file) {
     for (const auto& [name, value] : settings) {
         const auto then = baseline.settings.find(name);
         if (name == "repeat" || then == baseline.settings.end() || then->second == value) continue;
-        throw UsageError(fmt::format("--baseline {}: was measured with {} {:g}, not {:g}; expected the same",
-                                     file, name, then->second, value));
+        throw UsageError(
+            fmt::format("--baseline {}: was measured with {} {:g}, not {:g}; expected equal settings", file,
+                        name, then->second, value));
     }
 }
 
@@ -130,7 +131,7 @@ void bench(const BenchOptions& options) {
 }  // namespace
 
 void addBenchCommand(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "Measure kernels, whole renders and the host's part");
+    CLI::App* command = app.add_subcommand("bench", "Measure kernels, whole renders and host code");
     auto options = std::make_shared<BenchOptions>();
     command
         ->add_option(
@@ -148,38 +149,41 @@ void addBenchCommand(CLI::App& app) {
     addDeviceOption(*command, options->device);
     addThreadsOption(*command);
     addTuningOptions(*command, options->tuning);
-    command->add_option("--repeat", options->repeat, "Runs that count, in turns, after one that does not")
+    command
+        ->add_option("--repeat", options->repeat,
+                     "Measured runs of each benchmark, interleaved, after one warm-up run")
         ->type_name("N")
         ->capture_default_str()
         ->check(wholeNumber(1, 1000));
-    command->add_option("--size", options->size, "Pixels of pictures, and rays of a set")
+    command->add_option("--size", options->size, "Image size; also the number of rays in a ray set")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
-    command->add_option("--spp", options->spp, "Samples per pixel of pictures")
+    command->add_option("--spp", options->spp, "Samples per pixel of images")
         ->type_name("N")
         ->capture_default_str()
         ->check(wholeNumber(1, 65536));
-    command->add_option("--bounces", options->bounces, "Bounces of pictures; shadowless: at most 4")
+    command->add_option("--bounces", options->bounces, "Bounces of images; shadowless: at most 4")
         ->type_name("N")
         ->capture_default_str()
         ->check(wholeNumber(0, 65535));
     command
         ->add_option("--json", options->json,
-                     "File for all results (-: standard output, in place of the table)")
+                     "Write all results as JSON to this file (-: standard output instead of the table)")
         ->type_name("FILE")
         ->check(notEmpty());
     command
         ->add_option("--baseline", options->baseline,
-                     "Such a file of before, with the same settings: prints ratios; exit status 1 if slower")
+                     "Earlier --json file with the same settings: print ratios; exit status 1 if slower")
         ->type_name("FILE")
         ->check(notEmpty());
     command
         ->add_option("--threshold", options->threshold,
-                     "Part by which a median may be slower than the baseline's")
+                     "Fraction by which a median may be slower than the baseline's")
         ->type_name("PART")
         ->capture_default_str()
         ->check(between(0, 1));
-    command->add_flag("--quiet", options->quiet, "Do not name on standard error what is running");
+    command->add_flag("--quiet", options->quiet,
+                      "Do not print the names of running benchmarks on standard error");
     command->callback([options] { bench(*options); });
 }
 

@@ -106,8 +106,8 @@ void printJson(const Arguments& arguments, const Comparison& c) {
     json["pixels"] = c.pixels;
     json["non_finite"] = c.nonFinite;
     for (const auto& [name, value] : c.metrics()) {
-        // JSON has neither infinity nor NaN: equal images have no PSNR, images with pixels that are not
-        // finite nothing.
+        // JSON has neither infinity nor NaN: PSNR is null for identical images, and all metrics are null if
+        // some pixels are not finite.
         json[std::string(name)] =
             std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
     }
@@ -165,24 +165,24 @@ void addCompareCommand(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("compare", "Measure how far an image is from a reference");
     command->add_option("IMAGE", arguments->image, "The image: .exr, .png or .pfm")->required();
-    command->add_option("REFERENCE", arguments->reference, "What it should be, of the same size")->required();
+    command->add_option("REFERENCE", arguments->reference, "The reference image, of the same size")
+        ->required();
     command->add_flag("--json", arguments->json, "Print JSON");
     command
-        ->add_option(
-            "--mask", arguments->mask,
-            "Compare only pixels of this image with a channel of at least half the light (sRGB code 188)")
+        ->add_option("--mask", arguments->mask,
+                     "Compare only the pixels that are white in this image (a channel of at least 0.5 "
+                     "linear, sRGB code 188)")
         ->type_name("FILE");
-    command->add_option("--heatmap", arguments->heatMap, "Write a picture of eps, from black (0) to white")
+    command->add_option("--heatmap", arguments->heatMap, "Write an image of eps, from black (0) to white")
         ->type_name("FILE");
-    command->add_option("--heatmap-range", arguments->heatMapRange, "The eps that is white in it")
+    command->add_option("--heatmap-range", arguments->heatMapRange, "The eps that is shown as white")
         ->check(between(1e-6, 1.0))
         ->capture_default_str()
         ->type_name("EPS");
     command
         ->add_option("--fail-above", arguments->limits,
-                     "Exit with status 1 if a metric (its name in the JSON; its size if it has a sign) "
-                     "exceeds this; may be "
-                     "given several times")
+                     "Exit with status 1 if a metric (named as in the JSON; the magnitude if it is signed) "
+                     "exceeds VALUE; may be given several times")
         ->expected(1)
         ->allow_extra_args(false)
         ->take_all()

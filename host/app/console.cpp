@@ -17,13 +17,14 @@ namespace duolux {
 void openStandardStreams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
-        // Gets this number, the lowest that is free. Opened the wrong way, so that using it fails as before.
+        // open() returns this number, the lowest free one. The access mode is the opposite of the stream's,
+        // so that using the stream still fails.
         static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
     }
 }
 
 void say(std::string_view line) {
-    std::fflush(stdout);  // in order, where both go to one place
+    std::fflush(stdout);  // keeps the order if both streams go to the same place
     const std::string text = asMessage(line) + "\n";
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);

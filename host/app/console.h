@@ -4,21 +4,20 @@
 
 namespace duolux {
 
-// What a program says to its user beside its results. A line that cannot be written, because standard error
-// is closed, full or a terminal that went away, is no reason to stop.
+// Messages to the user on standard error, and results on standard output. A message that cannot be written,
+// because standard error is closed, full or a disconnected terminal, is dropped.
 
-/// First thing in a program: what is opened later must not take the place of a standard stream that is
-/// closed. Writing to one that is closed still fails.
+/// Must be called first in a program: prevents files that are opened later from taking the number of a closed
+/// standard stream. Writing to a closed stream still fails.
 void openStandardStreams();
 
-/// One line on standard error, made printable and of bounded length, after what standard output holds.
+/// Writes one line, printable and of bounded length, to standard error, after flushing standard output.
 void say(std::string_view line);
 
 /// say() with "duolux: warning: ".
 void warn(std::string_view text);
 
-/// Writes a result, and what was printed before, to standard output. Throws MachineError if that fails, or
-/// has failed before.
+/// Writes a result to standard output and flushes it. Throws MachineError if this or an earlier write failed.
 void printResult(std::string_view text = {});
 
 }  // namespace duolux

@@ -14,7 +14,7 @@ namespace duolux {
 namespace {
 
 constexpr double kLitPart = 0.01;
-constexpr float kDarkestGrey = 1.0f / (255.0f * 12.92f);  // 1 of 255, decoded from sRGB
+constexpr float kDarkestGrey = 1.0f / (255.0f * 12.92f);  // sRGB code 1 of 255, linear
 
 std::string point(const glm::vec3& p) {
     return fmt::format("{:.6g},{:.6g},{:.6g}", p.x, p.y, p.z);
@@ -28,36 +28,39 @@ std::string describe(const DarkReason& reason) {
             return "nothing emits light; --lamp adds a lamp";
         case Darkness::kLooksPast:
             return fmt::format(
-                "the camera looks past the scene, which fills {:.1f} % of the picture; try {}, or "
+                "the camera looks past the scene, which covers {:.1f} % of the picture; try {}, or "
                 "a smaller --vfov",
                 100.0f * reason.filled, lookAt);
         case Darkness::kOnlyEmitters:
             return "the camera sees only emitters, and they emit no visible light";
         case Darkness::kNoBounces:
-            return "with 0 bounces only emitters show, and what the camera sees emits no visible light; try "
-                   "more "
-                   "--bounces";
+            return "with 0 bounces only emitters are visible, and the surfaces in view emit no visible "
+                   "light; "
+                   "try more --bounces";
         case Darkness::kNothingVisible:
-            return "no reflectance turns what is emitted into visible light; the second row of \"opaque\" "
-                   "does";
+            return "no reflectance turns the emitted light into visible light; this needs entries in the "
+                   "second "
+                   "row of \"opaque\"";
         case Darkness::kBlackSurfaces:
-            return fmt::format("what the camera sees (material \"{}\") is black, and reflects nothing",
+            return fmt::format("the surfaces in view (material \"{}\") are black and reflect nothing",
                                reason.material);
         case Darkness::kBehind:
             return fmt::format(
-                "the camera is behind a wall or inside of an object: it sees sides that no light "
-                "reaches of surfaces (material \"{}\") whose other sides are lit; try {} {}",
+                "the camera is behind a wall or inside of an object: it sees the unlit sides of surfaces "
+                "(material \"{}\") whose other sides are lit; try {} {}",
                 reason.material, position, lookAt);
         case Darkness::kFacingAway:
             return fmt::format(
-                "the emitters (material \"{}\") face away from what the camera sees: they shine from "
-                "their front side, from which corners run counter-clockwise; turn them, or give "
-                "their emission \"sides\": \"both\" in a JSON scene, or add --lamp",
+                "the emitters (material \"{}\") face away from the surfaces in view: they emit from their "
+                "front "
+                "side, on which corners are counter-clockwise; turn them, set \"sides\": \"both\" in their "
+                "emission in a JSON scene, or add --lamp",
                 reason.material);
         case Darkness::kEnclosed:
             return fmt::format(
-                "no light reaches what the camera sees (material \"{}\"): other surfaces are between "
-                "it and the emitters; try --lamp, or {} {}",
+                "no light reaches what the camera sees (material \"{}\"): other surfaces block the light of "
+                "the "
+                "emitters; try --lamp, or {} {}",
                 reason.material, position, lookAt);
         case Darkness::kUnknown:
             break;
@@ -65,8 +68,8 @@ std::string describe(const DarkReason& reason) {
     return "little light reaches what the camera sees; try --lamp, or more --spp";
 }
 
-/// The brightest value that at least `part` of the pixels reach, by their brightest channel, rounded down to
-/// half a stop; 0 if that is below 2^-30.
+/// The largest value that the brightest channels of at least the fraction `part` of the pixels reach, rounded
+/// down to half a stop; 0 if it is below 2^-30.
 float reachedBy(double part, const ImageRows& rows, glm::vec2 display) {
     constexpr int kBins = 160, kZero = 60;  // half stops
     std::array<std::uint64_t, kBins> counts{};

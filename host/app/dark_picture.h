@@ -7,8 +7,8 @@
 
 namespace duolux {
 
-/// A line that says so and names the likely cause and its remedy where less than 1 % of a picture's pixels
-/// are as bright as the darkest grey of a PNG; empty where the picture is fine.
+/// A warning with the likely cause and its remedy if less than 1 % of an image's pixels are as bright as the
+/// darkest grey of a PNG; empty otherwise.
 std::string darkPictureWarning(const Scene& scene, const ImageRows& rows, float exposure);
 
 }  // namespace duolux

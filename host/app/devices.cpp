@@ -59,7 +59,7 @@ void runDevices(bool json) {
     try {
         chosen = &selectDevice(devices, "");
     } catch (const MachineError&) {
-        // None is usable: the list says why.
+        // No device is usable; the list shows why.
     }
     if (json) {
         fmt::print(
@@ -70,15 +70,15 @@ void runDevices(bool json) {
             printDevice(device, &device == chosen);
     }
     if (chosen == nullptr) throw MachineError("no usable Vulkan device");
-    if (!json) fmt::print("\n* is used unless --device says otherwise.\n");
+    if (!json) fmt::print("\n* is the default for --device.\n");
 }
 
 }  // namespace
 
 void addDevicesCommand(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices, and which one would be used");
+    CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices and mark the default");
     const auto json = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "As JSON, for scripts");
+    command->add_flag("--json", *json, "Print JSON");
     command->callback([json] { runDevices(*json); });
 }
 

@@ -12,7 +12,7 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
     ImageOptions out;
     out.display = origin.display;
     out.exposure = exposure;
-    // "version", "type" and "name" have a meaning of their own in OpenEXR.
+    // OpenEXR reserves the attributes "version", "type" and "name".
     out.metadata = {{"reflectance", origin.reflectance},
                     {"integrator", nameOf(origin.settings.integrator)},
                     {"spp", fmt::format("{:g}", samples / pixels)},
@@ -25,9 +25,9 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
 
 std::string describeOverflow(const Film& film) {
     return fmt::format(
-        "some light is brighter than the film holds and was clamped: its largest radiance is {:.3g}, at "
-        "least "
-        "2^28 times the mean of the picture at a first look",
+        "some radiance exceeds the film's range and was clamped to {:.3g}, at least 2^28 times the mean of "
+        "the "
+        "first samples",
         film.largestRadiance());
 }
 

@@ -9,15 +9,15 @@
 
 namespace duolux {
 
-/// How images of a film are written: the display row, the exposure in stops, and metadata that say what was
-/// rendered.
+/// Options for writing images of a film: the display row, the exposure in stops, and metadata that describe
+/// the render.
 ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float exposure);
 
 /// Writes an image to each file.
 void writeImages(WriteAll& write, const std::vector<std::string>& files, const ImageRows& rows,
                  const ImageOptions& options);
 
-/// What to tell of a film that overflowed.
+/// The warning for a film that has overflowed.
 std::string describeOverflow(const Film& film);
 
 }  // namespace duolux

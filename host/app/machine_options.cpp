@@ -12,7 +12,8 @@ namespace duolux {
 
 namespace {
 
-/// Carries out what needs a driver.
+/// Runs `step`, which needs a driver, and adds relevant environment variables to the error if none can be
+/// loaded.
 template <typename Step>
 auto withDriver(const Step& step) {
     try {
@@ -39,16 +40,16 @@ void addDeviceOption(CLI::App& command, std::string& device) {
     command
         .add_option(
             "--device", device,
-            "cpu, gpu, an index or a part of a name, see 'duolux devices' (default: a GPU if there is one)")
+            "cpu, gpu, an index or part of a name, see 'duolux devices' (default: a GPU if there is one)")
         ->type_name("DEVICE");
 }
 
 void addThreadsOption(CLI::App& command) {
     command
-        .add_option_function<unsigned>(
-            "--threads", chooseThreads,
-            "Threads of the program and of the software driver (default, and 0: one for each core; more than "
-            "that are allowed); no number changes a bit of a picture")
+        .add_option_function<unsigned>("--threads", chooseThreads,
+                                       "Threads of the program and of the software driver, also more than "
+                                       "cores (default, and 0: one for "
+                                       "each core); images are identical for every number")
         ->type_name("N")
         ->check(wholeNumber(0, 1024));
 }

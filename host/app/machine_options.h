@@ -8,19 +8,19 @@
 
 namespace duolux {
 
-// Options of several commands that choose what the program runs on, and the errors that this leads to.
+// Options of several commands that choose the device and the number of threads, and the resulting errors.
 
 /// Adds --device to a command. `device` must outlive it.
 void addDeviceOption(CLI::App& command, std::string& device);
 
-/// Adds --threads to a command; it takes effect when it is read.
+/// Adds --threads to a command; it takes effect when it is parsed.
 void addThreadsOption(CLI::App& command);
 
-/// The device that --device names. Throws as Device does, and says which environment variables choose
-/// drivers where none can be loaded.
+/// Opens the device that --device selects. Throws as Device does; if no driver can be loaded, the message
+/// also lists the environment variables that select drivers.
 Device openDevice(const std::string& selector);
 
-/// All devices, with the same errors.
+/// All devices; the same errors.
 std::vector<DeviceInfo> findDevices();
 
 }  // namespace duolux

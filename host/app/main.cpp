@@ -24,7 +24,7 @@ int report(std::string_view line, duolux::ExitStatus status) {
     return static_cast<int>(status);
 }
 
-/// CLI11 does not tell an unknown command from a missing one.
+/// CLI11 does not distinguish an unknown command from a missing one.
 void checkCommand(const CLI::App& app, int argc, char** argv) {
     std::vector<std::string> known;
     for (const CLI::App* command : app.get_subcommands({}))
@@ -42,17 +42,16 @@ void checkCommand(const CLI::App& app, int argc, char** argv) {
 int run(int argc, char** argv) {
     CLI::App app{
         "Duolux renders vector-valued light (invisible, visible) through matrix-valued reflectance:\n"
-        "local, global, shadowless and one-bounce illumination, and everything between, by paths from the "
-        "camera or from the emitters.",
+        "local, global, shadowless and one-bounce illumination and all blends of these, with a path tracer "
+        "and a light tracer.",
         "duolux"};
     app.set_version_flag("--version",
                          fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
     app.footer(
-        "BVHs of larger scenes are kept in $XDG_CACHE_HOME/duolux, by default ~/.cache/duolux, which never "
-        "takes "
-        "more than 1 GiB; DUOLUX_NO_CACHE=1 in the environment keeps and reads none.");
+        "BVHs of larger scenes are cached in $XDG_CACHE_HOME/duolux (default: ~/.cache/duolux), which never "
+        "exceeds 1 GiB; DUOLUX_NO_CACHE=1 in the environment disables the cache.");
     app.require_subcommand(1);
-    // Scripts append to default options: the last one counts.
+    // The last of repeated options counts, so that scripts can append to default options.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.get_formatter()->column_width(36);
     app.get_formatter()->label("SUBCOMMAND", "COMMAND");

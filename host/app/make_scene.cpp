@@ -42,11 +42,11 @@ void addMakeSceneCommand(CLI::App& app) {
     auto options = std::make_shared<Options>();
     command->add_option("NAME", options->name, "two-spheres: the scene of the paper's evaluation")
         ->required();
-    command->add_option("--triangles", options->triangles, "Number of triangles, met within 1 %")
+    command->add_option("--triangles", options->triangles, "Number of triangles, within 1 %")
         ->capture_default_str();
     command
         ->add_option("-o,--output", options->folder,
-                     "Folder for the OBJ, MTL and JSON files; made if need be")
+                     "Folder for the OBJ, MTL and JSON files; created if it does not exist")
         ->required();
     command->callback([options] { makeScene(*options); });
 }

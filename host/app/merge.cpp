@@ -23,19 +23,19 @@ struct MergeOptions {
     float exposure = 0.0f;
 };
 
-/// The range of samples of a part.
+/// The range of samples in a part.
 struct Part {
     std::uint32_t first, end;
     std::string file;
 };
 
-/// Throws InputError if two parts share samples: their noise would count twice.
+/// Throws InputError if two parts share samples, which would count twice.
 void requireDisjoint(const Part& part, const std::vector<Part>& others) {
     for (const Part& other : others) {
         const std::uint32_t first = std::max(part.first, other.first), end = std::min(part.end, other.end);
         if (first >= end) continue;
         throw InputError(part.file, "",
-                         fmt::format("has samples {} to {}, which {} has, too", first, end - 1, other.file),
+                         fmt::format("has samples {} to {}, which {} also has", first, end - 1, other.file),
                          "expected parts of different --sample-range");
     }
 }
@@ -46,7 +46,7 @@ void warnIfIncomplete(const std::string& file, const Checkpoint& part) {
     const std::uint64_t wanted =
         (part.origin.settings.spp - part.origin.firstSample) * (std::uint64_t{film.width()} * film.height());
     if (taken == wanted) return;
-    warn(fmt::format("{} has {} of {} {}; --resume takes the rest", file, taken, wanted,
+    warn(fmt::format("{} has {} of {} {}; --resume traces the remaining ones", file, taken, wanted,
                      part.origin.settings.integrator == Integrator::kLight ? "light paths" : "samples"));
 }
 
@@ -83,8 +83,8 @@ void runMerge(const MergeOptions& options) {
 
 void addMergeCommand(CLI::App& app) {
     const auto options = std::make_shared<MergeOptions>();
-    CLI::App* command =
-        app.add_subcommand("merge", "Sum partial renders, the same as one of all their samples");
+    CLI::App* command = app.add_subcommand(
+        "merge", "Add partial renders; the result is identical to one render of all samples");
     command
         ->add_option("-o,--output", options->outputs,
                      "Image to write: .exr, .png or .pfm; may be given several times")

@@ -81,7 +81,7 @@ CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper) {
 CLI::Validator notEmpty() {
     return CLI::Validator(
         [](std::string& text) {
-            return text.empty() ? std::string("expected a value, not nothing") : std::string();
+            return text.empty() ? std::string("expected a value, not an empty text") : std::string();
         },
         "");
 }
@@ -89,9 +89,9 @@ CLI::Validator notEmpty() {
 void addStrictOption(CLI::App& command, bool& strict) {
     command.add_flag(
         "--strict", strict,
-        "Refuse scene files with errors that are otherwise warnings: numbers, normals, corners and "
-        "faces of meshes that are not right, colours that are not three numbers from 0 on, MTL "
-        "files that are missing or unreadable, materials undefined or defined twice");
+        "Refuse scene files with errors that are otherwise warnings: invalid numbers, normals, corners and "
+        "faces of meshes, colours that are not three numbers >= 0, missing or unreadable MTL files, "
+        "materials undefined or defined twice");
 }
 
 std::string describeParseError(const CLI::App& app, const CLI::ParseError& error) {

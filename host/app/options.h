@@ -10,9 +10,9 @@
 
 namespace duolux {
 
-// What the options of several commands have in common. All throw UsageError.
+// Parsers and checks for the options of several commands. All throw UsageError.
 
-/// "A,B" as two numbers, or nothing.
+/// "A,B" as two numbers; empty if malformed.
 std::optional<glm::vec2> parsePoint(const std::string& text);
 
 /// "WIDTHxHEIGHT", each from 1 to 16384.
@@ -24,17 +24,18 @@ struct SampleRange {
 };
 SampleRange parseSampleRange(const std::string& text);
 
-/// Checks that an option's text is a number in [lower, upper], which NaN is not.
+/// Checks that an option's text is a number in [lower, upper]; rejects NaN.
 CLI::Validator between(double lower, double upper);
 CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);
 
-/// Refuses an empty text, such as a script's variable that was never set.
+/// Rejects an empty text, for example from an unset variable in a script.
 CLI::Validator notEmpty();
 
-/// Adds --strict, which refuses scene files that are not quite right, to a command. `strict` must outlive it.
+/// Adds --strict, which turns tolerated errors in scene files into failures, to a command. `strict` must
+/// outlive the command.
 void addStrictOption(CLI::App& command, bool& strict);
 
-/// The line for an error of the command line's syntax.
+/// The message for a syntax error on the command line.
 std::string describeParseError(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace duolux

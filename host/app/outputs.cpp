@@ -35,7 +35,7 @@ fs::path folderOf(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// The message of what this throws, if it does.
+/// The message of the exception that `step` throws, if any.
 std::optional<std::string> problemOf(const std::string& file, const std::function<void()>& step) {
     try {
         step();
@@ -50,7 +50,7 @@ std::optional<std::string> problemOf(const std::string& file, const std::functio
     }
 }
 
-/// Makes a new file in a folder, named after the one that cannot be written. Empty if that fails, too.
+/// Creates a new file in a folder, named after the file that cannot be written. Empty if this fails as well.
 fs::path makeFileInstead(const fs::path& folder, const fs::path& path) {
     constexpr std::size_t kLongestPart = 100;  // names are limited to 255 bytes
     std::string extension = path.extension().string();
@@ -64,7 +64,7 @@ fs::path makeFileInstead(const fs::path& folder, const fs::path& path) {
     return name;
 }
 
-/// Where a file could be written that could not be where it should; empty: nowhere.
+/// Writes a file to another place after its own failed. Returns the new path; empty if no place works.
 fs::path writeElsewhere(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     std::error_code ignored;
     std::vector<fs::path> folders{".", fs::temp_directory_path(ignored)};
@@ -90,14 +90,14 @@ void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std:
         if (output.image && !isImagePath(output.file))
             refuse(output, "unknown image format; expected .exr, .png or .pfm");
         const fs::path path(output.file);
-        std::error_code unseen;  // what may not even be looked at may not be written either
+        std::error_code unseen;  // the path cannot be examined: checkWritable reports it below
         if (!fs::exists(folderOf(path), unseen) && !unseen)
-            refuse(output, fmt::format("there is no folder {}", folderOf(path).string()));
+            refuse(output, fmt::format("the folder {} does not exist", folderOf(path).string()));
         if (fs::is_directory(path, unseen)) refuse(output, "is a folder; expected a file name");
         for (const auto& [other, use] : taken) {
             if (isSameFile(path, other)) refuseTaken(output, use);
         }
-        taken.emplace_back(path, "is written by " + output.option + ", too");
+        taken.emplace_back(path, "is also written by " + output.option);
         if (const auto problem = problemOf(output.file, [&] { checkWritable(path); }))
             throw UsageError(fmt::format("{} {}", output.option, *problem));
     }

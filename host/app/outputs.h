@@ -7,36 +7,36 @@
 
 namespace duolux {
 
-// The files that a command writes: what can be known before the work is told before it, and what goes wrong
-// after it costs no other file.
+// The files that a command writes. Foreseeable problems are reported before the work, and a file that cannot
+// be written afterwards does not affect the others.
 
 /// A file that a command will write, and the option that names it.
 struct OutputFile {
     std::string option, file;
-    bool image = true;  ///< its extension must be an image's
+    bool image = true;  ///< whether it must have an image's extension
 };
 
-/// Says before the work what would go wrong after it: formats that are not known, folders that are missing or
-/// in the place of files, whatever else would keep a file from being written, and files that would overwrite
-/// one another or one of `inputs`. Throws UsageError.
+/// Checks outputs before the work: unknown formats, missing folders, folders in place of files, anything else
+/// that prevents a file from being written, and files that would overwrite each other or one of `inputs`.
+/// Throws UsageError.
 void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs);
 
-/// Says which of the outputs would overwrite one of the files that have been read. Throws UsageError.
+/// Throws UsageError if an output would overwrite one of the files that have been read.
 void checkNotRead(const std::vector<OutputFile>& outputs, const std::vector<std::filesystem::path>& inputs);
 
-/// Writes all the outputs of a command though some fail.
+/// Writes all outputs of a command, even if some fail.
 class WriteAll {
   public:
-    /// Calls `write` with the path of the file. If that fails, whatever is thrown, `write` is called with new
-    /// names beside it, in the current folder and in that for temporary files, until one works.
+    /// Calls `write` with the path of the file. If this throws anything, `write` is called with new names in
+    /// the same folder, in the current folder and in the folder for temporary files, until one works.
     void operator()(const std::string& file, const std::function<void(const std::filesystem::path&)>& write);
 
     bool failed() const { return !failures_.empty(); }
 
-    /// Says on standard error what failed, and where the files are instead.
+    /// Reports on standard error which files failed, and where they are instead.
     void sayFailures() const;
 
-    /// Says the same, and throws MachineError if anything failed.
+    /// Reports the same, and throws MachineError if any file failed.
     void finish() const;
 
   private:

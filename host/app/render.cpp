@@ -60,7 +60,7 @@ Reflectance parseBlend(const std::string& text) {
     return blendReflectance(point->x, point->y);
 }
 
-/// What the command line changes of a scene.
+/// The scene's settings that the command line overrides.
 struct Overrides {
     std::optional<Reflectance> reflectance;
     std::optional<glm::uvec2> size;
@@ -68,7 +68,7 @@ struct Overrides {
     std::optional<Integrator> integrator;
     std::optional<SampleRange> range;
 
-    /// What the rest of the scene depends on.
+    /// The choices on which loading the scene depends.
     SceneChoices choices(const RenderOptions& options) const {
         SceneChoices choices = options.view.choices();
         choices.size = size;
@@ -86,7 +86,7 @@ struct Overrides {
     }
 };
 
-/// Throws UsageError for what the options' own checks cannot tell.
+/// Throws UsageError for errors that the options' own checks cannot detect.
 Overrides parseOverrides(const RenderOptions& options) {
     Overrides overrides;
     if (!options.preset.empty()) overrides.reflectance = presetReflectance(options.preset);
@@ -115,7 +115,7 @@ std::uint64_t samplesInAll(const Scene& scene, const RenderControl& control) {
     return std::uint64_t{scene.render.width} * scene.render.height * (scene.render.spp - control.firstSample);
 }
 
-/// What the user should know of a finished render.
+/// Warnings about a finished render.
 std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl& control,
                                         const RenderOutput& output, bool failed) {
     const RenderStatistics& statistics = output.statistics;
@@ -123,8 +123,7 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl&
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
     if (statistics.gaps) {
         warnings.emplace_back(
-            "some pixels have light of samples that others do not: no checkpoint is written, an earlier one "
-            "stays");
+            "the samples of some pixels have gaps: no checkpoint is written, and an earlier one is kept");
     }
     if (statistics.stopped && !failed && !stopStatus()) {
         const auto taken = static_cast<double>(output.film.totalSamples() + output.film.lightPaths());
@@ -134,9 +133,9 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl&
     }
     if (statistics.cutOffByBounces()) {
         warnings.push_back(fmt::format(
-            "the limit of {} cuts light off: the last of them added {} of the image's "
-            "radiance, the one "
-            "before it {}; so this is the picture of that many",
+            "the limit of {} cuts light off: the last bounce added {} of the image's radiance, the bounce "
+            "before "
+            "it {}; the picture shows only light of up to this number of bounces",
             scene.render.bounces == 1 ? "1 bounce" : fmt::format("{} bounces", scene.render.bounces),
             percent(statistics.lastBounceRadiance, statistics.meanRadiance),
             percent(statistics.previousBounceRadiance, statistics.meanRadiance)));
@@ -152,13 +151,14 @@ DirectLight chooseDirectLight(const RenderOptions& options, const Scene& scene) 
     if (options.directLight.empty()) return DirectLight::kAuto;
     if (scene.render.integrator == Integrator::kLight) {
         throw UsageError(
-            "--direct-light is for --integrator path; light paths bring direct light like any other");
+            "--direct-light applies only to --integrator path; the light tracer does not sample direct "
+            "light");
     }
     if (options.directLight == "auto") return DirectLight::kAuto;
     return options.directLight == "sampled" ? DirectLight::kSampled : DirectLight::kClosedForm;
 }
 
-/// The samples to take: those of --sample-range, or of the checkpoint, or all.
+/// Chooses the samples to trace: those of --sample-range, or of the checkpoint, or all.
 void chooseRange(const RenderOptions& options, const Overrides& overrides,
                  const std::optional<Checkpoint>& resumed, Scene& scene, RenderControl& control) {
     if (overrides.range) {
@@ -175,11 +175,11 @@ void chooseRange(const RenderOptions& options, const Overrides& overrides,
         control.firstSample = resumed->origin.firstSample;
         if (!options.spp) scene.render.spp = resumed->origin.settings.spp;
         if (scene.render.spp <= control.firstSample) {
-            throw UsageError(fmt::format("--spp {}: {} is a part that begins with sample {}; expected more",
+            throw UsageError(fmt::format("--spp {}: {} is a part that starts at sample {}; expected more",
                                          scene.render.spp, options.resume, control.firstSample));
         }
     }
-    // What has been taken stays.
+    // Samples that have been traced are kept.
     if (resumed) {
         const std::uint32_t there = resumed->origin.firstSample + samplesTaken(resumed->state.film);
         if (there > scene.render.spp) {
@@ -196,9 +196,9 @@ void prepareResume(const RenderOptions& options, const Checkpoint& resumed, cons
         throw InputError(
             options.resume, "first sample",
             fmt::format("is {}, but {} of this render", resumed.origin.firstSample, control.firstSample),
-            "expected a range that begins alike");
+            "expected a --sample-range with the same first sample");
     }
-    // Unless asked for otherwise, direct light is found as before.
+    // By default, direct light is computed as in the checkpoint.
     FilmOrigin wanted = originOf(scene, control.firstSample, control.directLight == DirectLight::kClosedForm);
     if (control.directLight == DirectLight::kAuto) {
         wanted.directLight = control.directLight = resumed.origin.directLight;
@@ -207,7 +207,7 @@ void prepareResume(const RenderOptions& options, const Checkpoint& resumed, cons
     control.resume = &resumed.state;
 }
 
-/// What there is, though the device may have failed on the way.
+/// The render's output, even if the device failed before the end.
 RenderOutput renderWhatCanBe(Device& device, const Scene& scene, const RenderControl& control,
                              std::optional<RenderFailure>& failure) {
     try {
@@ -228,7 +228,7 @@ void runRender(const RenderOptions& options) {
     if (!options.report.empty() && options.report != "-")
         files.push_back({"--report", options.report, false});
     if (!options.checkpoint.empty()) files.push_back({"--checkpoint", options.checkpoint, false});
-    // A checkpoint may take the place of the one that the render goes on from.
+    // A checkpoint may replace the one from which the render resumes.
     checkOutputs(files,
                  {options.scene, isSameFile(options.resume, options.checkpoint) ? "" : options.resume});
     const Overrides overrides = parseOverrides(options);
@@ -255,7 +255,7 @@ void runRender(const RenderOptions& options) {
     Progress progress(Progress::styleForStderr(options.quiet));
     control.onStart = deferSignals;
     control.onProgress = [&](const RenderProgress& p) {
-        if (p.samplesTotal == 0) return true;  // all has been resumed
+        if (p.samplesTotal == 0) return true;  // all samples were resumed
         progress.update({static_cast<double>(p.samplesDone), static_cast<double>(p.samplesTotal), p.seconds,
                          options.timeLimit});
         return !stopStatus();
@@ -267,7 +267,7 @@ void runRender(const RenderOptions& options) {
         control.onCheckpoint = [&](const Film& film, const RenderStatistics& statistics) {
             try {
                 writeCheckpoint(options.checkpoint, origin(statistics), film, statistics);
-            } catch (const std::exception& e) {  // the next one may fit again
+            } catch (const std::exception& e) {  // the next checkpoint may succeed
                 progress.leaveLine();
                 warn(e.what());
             }
@@ -275,11 +275,11 @@ void runRender(const RenderOptions& options) {
     }
     std::optional<RenderFailure> failure;
     const RenderOutput output = renderWhatCanBe(device, scene, control, failure);
-    deferSignals();  // even if all has been resumed
+    deferSignals();  // even if all samples were resumed
     progress.finish();
 
     std::vector<std::string> warnings = resultWarnings(scene, control, output, failure.has_value());
-    // Of less than a sample of every pixel there is nothing to say.
+    // The warning requires at least one sample of every pixel.
     if (!failure && output.film.totalSamples() + output.film.lightPaths() >= output.film.samples().size()) {
         const std::string dark = darkPictureWarning(scene, output.film.rows(), options.exposure);
         if (!dark.empty()) warnings.push_back(dark);
@@ -312,18 +312,18 @@ void runRender(const RenderOptions& options) {
     if (failure) {
         write.sayFailures();
         throw MachineError(fmt::format("{}; {} {}", failure->what(),
-                                       write.failed() ? "there are" : "wrote what there is,", there));
+                                       write.failed() ? "there are" : "wrote the result so far,", there));
     }
     if (const auto status = stopStatus(); status && (output.statistics.stopped || write.failed())) {
         write.sayFailures();
         throw Error(*status,
-                    fmt::format("{}: wrote what there is, {}",
+                    fmt::format("{}: wrote the result so far, {}",
                                 *status == ExitStatus::kTerminated ? "terminated" : "interrupted", there));
     }
     write.finish();
 }
 
-/// `-o a.png a.exr`: words that are neither options nor the scene are further images after -o.
+/// `-o a.png a.exr`: after -o, words that are neither options nor the scene are further images.
 void sortWords(const CLI::App& command, RenderOptions& options) {
     std::vector<std::string> words = command.remaining(), others;
     words.insert(words.begin(), options.scene);
@@ -381,23 +381,22 @@ void addRenderCommand(CLI::App& app) {
         ->type_name("N")
         ->check(wholeNumber(0, 0xffffffff));
     command
-        ->add_option("--integrator", options->integrator,
-                     "Paths from the camera (path: the default, if the scene does not choose), or from the "
-                     "emitters, each connected to the "
-                     "camera wherever it scatters (light); then --spp is the number of light paths per pixel")
+        ->add_option(
+            "--integrator", options->integrator,
+            "path: path tracer (default, unless the scene chooses); light: light tracer, which connects "
+            "paths from the emitters to the camera; --spp is then the number of light paths per pixel")
         ->type_name("NAME")
         ->check(CLI::IsMember({"path", "light"}));
     command
         ->add_option("--sampler", options->sampler,
-                     "Samples: Owen-scrambled Sobol points (the default), or independent ones")
+                     "Owen-scrambled Sobol points (default), or independent random numbers")
         ->type_name("NAME")
         ->check(CLI::IsMember({"sobol", "independent"}));
     command
         ->add_option(
             "--direct-light", options->directLight,
-            "Light from emitters to the surfaces on paths from the camera: sampled; in closed form, without "
-            "noise, where nothing can be in between (local, shadowless); or auto (the default): in closed "
-            "form for local")
+            "Direct light in the path tracer: sampled; closed-form: without noise, only where nothing blocks "
+            "emitters (local, shadowless); auto (default): closed-form for local, otherwise sampled")
         ->type_name("NAME")
         ->check(CLI::IsMember({"auto", "sampled", "closed-form"}));
     addDeviceOption(*command, options->device);
@@ -405,26 +404,27 @@ void addRenderCommand(CLI::App& app) {
     addTuningOptions(*command, options->tuning);
     command
         ->add_option("--time-limit", options->timeLimit,
-                     "Stop before this many seconds of rendering with what has been accumulated, but not "
-                     "before every pixel has one sample (or there are as many light paths as pixels)")
+                     "Stop before this many seconds of rendering, but not before every pixel has one sample "
+                     "(light tracer: as many light paths as pixels)")
         ->type_name("SECONDS")
         ->check(between(1e-3, 1e9));
     command
-        ->add_option("--sample-range", options->sampleRange,
-                     "Only samples A to B-1 of every pixel (or as many light paths), a part for 'duolux "
-                     "merge', with --checkpoint")
+        ->add_option(
+            "--sample-range", options->sampleRange,
+            "Trace only samples A to B-1 of every pixel (or the corresponding light paths): a part for "
+            "'duolux merge', with --checkpoint")
         ->type_name("A:B")
         ->check(notEmpty());
     command
         ->add_option("--checkpoint", options->checkpoint,
-                     "Keep what there is, exactly, in this file: every minute, and at the end")
+                     "Save the exact state of the render in this file, every minute and at the end")
         ->type_name("FILE")
         ->check(notEmpty());
     command
-        ->add_option(
-            "--resume", options->resume,
-            "Go on from a checkpoint of the same scene and settings, to the end of its range of samples "
-            "or to --spp")
+        ->add_option("--resume", options->resume,
+                     "Resume from a checkpoint of the same scene and settings, up to the end of its range of "
+                     "samples or "
+                     "to --spp")
         ->type_name("FILE")
         ->check(notEmpty());
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")

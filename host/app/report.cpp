@@ -51,7 +51,7 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                           {"reflectance", describeReflectance(scene.reflectance)}};
     report["device"] = toJson(device);
     report["tuning"] = toJson(statistics.tuning);
-    report["tuning"]["lane_paths"] = statistics.lanePaths;  // as the schedule settled on
+    report["tuning"]["lane_paths"] = statistics.lanePaths;  // the final value
     report["seconds"] = {{"load", seconds.load},
                          {"build", statistics.buildSeconds},
                          {"upload", statistics.uploadSeconds},

@@ -8,7 +8,7 @@
 
 namespace duolux {
 
-/// Seconds of the stages that only the command knows.
+/// Durations in seconds of the stages that only the command measures.
 struct StageSeconds {
     double load = 0.0, write = 0.0, total = 0.0;
 };

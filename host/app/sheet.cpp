@@ -31,7 +31,7 @@ void runSheet(const SheetOptions& options) {
     checkOutputs({{"-o", options.output}}, options.images);
     if (options.labels.size() > options.images.size()) {
         throw UsageError(
-            fmt::format("--label was given {} times for {} images; expected one an image at most",
+            fmt::format("--label was given {} times for {} images; expected at most one for each image",
                         options.labels.size(), options.images.size()));
     }
     std::vector<SheetCell> cells;
@@ -58,7 +58,7 @@ void runSheet(const SheetOptions& options) {
 
 void addSheetCommand(CLI::App& app) {
     auto options = std::make_shared<SheetOptions>();
-    CLI::App* command = app.add_subcommand("sheet", "Lay images out side by side with captions");
+    CLI::App* command = app.add_subcommand("sheet", "Arrange images side by side with captions");
     command->add_option("-o,--output", options->output, "The sheet: .png (or .exr, .pfm)")
         ->required()
         ->type_name("FILE");

@@ -21,7 +21,7 @@ extern "C" void onSignal(int signal) {
         stopSignal = signal;
         return;
     }
-    if (signal == SIGXCPU && stopSignal != 0) return;  // comes every second
+    if (signal == SIGXCPU && stopSignal != 0) return;  // SIGXCPU is repeated every second
     constexpr std::string_view kInterrupted = "duolux: interrupted\n", kTerminated = "duolux: terminated\n";
     const std::string_view line = statusOf(signal) == ExitStatus::kInterrupted ? kInterrupted : kTerminated;
     static_cast<void>(!::write(STDERR_FILENO, line.data(), line.size()));

@@ -6,19 +6,18 @@
 
 namespace duolux {
 
-// Signals that end a program, once it has something to lose, ask for a clean stop: SIGINT (Ctrl-C), SIGHUP
-// (the terminal went away; ignored if it was when the program started, as under nohup), SIGTERM, and SIGXCPU
-// (the limit of CPU time). Calls that wait, such as for a pipe's reader, are interrupted by them.
+// Signals that request a clean stop once work could be lost: SIGINT (Ctrl-C), SIGHUP (the terminal is closed;
+// ignored if it was ignored when the program started, as under nohup), SIGTERM, and SIGXCPU (the limit on CPU
+// time). They interrupt blocking calls, for example one that waits for a pipe's reader.
 
-/// From the start of the program: each of these signals ends it at once with its exit status. What cannot be
-/// written because nobody reads it (SIGPIPE), or a file would become too large (SIGXFSZ), fails with an
-/// error.
+/// Must be called at the start of the program: each of these signals ends it at once with its exit status.
+/// Writes to a pipe without a reader (SIGPIPE) or beyond the limit on file size (SIGXFSZ) fail with an error.
 void handleSignals();
 
-/// From now on the first of these signals asks for a clean stop, and the next ends the program at once.
+/// From now on, the first of these signals requests a clean stop, and the next one ends the program at once.
 void deferSignals();
 
-/// The exit status for the signal that asked for a stop, if one did.
+/// The exit status for the signal that requested a stop; empty if there was none.
 std::optional<ExitStatus> stopStatus();
 
 }  // namespace duolux

@@ -9,7 +9,7 @@ namespace {
 constexpr Layout kLayouts[] = {Layout::kTexel, Layout::kStorage, Layout::kRayQuery};
 constexpr KernelKind kKernels[] = {KernelKind::kRefilling, KernelKind::kPlain};
 
-/// The value of this name, if there is one.
+/// The value with this name, if any.
 template <typename T, std::size_t N>
 std::optional<T> byName(const T (&values)[N], const std::string& name) {
     for (const T value : values) {
@@ -36,14 +36,15 @@ void addTuningOptions(CLI::App& command, TuningOptions& options) {
     command
         .add_option(
             "--layout", options.layout,
-            "Where rays find triangles: in a tree in texel buffers (the default on CPUs), the same in "
-            "storage buffers (on GPUs), or by the device's ray queries, see 'duolux devices'")
+            "How rays find triangles: by a tree in texel buffers (default on CPUs) or in storage buffers "
+            "(default on GPUs), or by the device's ray queries, see 'duolux devices'")
         ->type_name("NAME")
         ->check(CLI::IsMember(namesOf(kLayouts)));
     command
-        .add_option("--kernel", options.kernel,
-                    "Lanes that are done with their rays: get new ones (refilling: the default), or wait for "
-                    "the others (plain: always with ray queries)")
+        .add_option(
+            "--kernel", options.kernel,
+            "Lanes whose rays are done get new ones (refilling: default) or wait for the others (plain: "
+            "always with ray queries)")
         ->type_name("NAME")
         ->check(CLI::IsMember(namesOf(kKernels)));
 }

@@ -7,14 +7,14 @@
 
 namespace duolux {
 
-/// What --layout and --kernel say; empty: nothing.
+/// The values of --layout and --kernel; empty if not given.
 struct TuningOptions {
     std::string layout, kernel;
 
     TuningChoice choice() const;
 };
 
-/// Adds both to a command that traces rays. `options` must outlive it.
+/// Adds both options to a command that traces rays. `options` must outlive the command.
 void addTuningOptions(CLI::App& command, TuningOptions& options);
 
 }  // namespace duolux

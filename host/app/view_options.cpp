@@ -15,7 +15,7 @@ namespace duolux {
 
 namespace {
 
-/// "X,Y,Z" as three numbers, or nothing.
+/// "X,Y,Z" as three numbers; empty if malformed.
 std::optional<glm::dvec3> parseTriple(const std::string& text) {
     glm::dvec3 result;
     const char* at = text.data();
@@ -64,10 +64,10 @@ SceneChoices ViewOptions::choices() const {
 }
 
 void addViewOptions(CLI::App& command, ViewOptions& options) {
-    const char* const kGroup = "Camera and lamp (in place of the scene's, or of what is chosen)";
+    const char* const kGroup = "Camera and lamp (override the scene's and the automatic choice)";
     command
         .add_option("--camera-position", options.position,
-                    "Where the camera stands, in the scene's coordinates")
+                    "Position of the camera, in the scene's coordinates")
         ->type_name("X,Y,Z")
         ->check(notEmpty())
         ->group(kGroup);
@@ -76,23 +76,23 @@ void addViewOptions(CLI::App& command, ViewOptions& options) {
         ->check(notEmpty())
         ->group(kGroup);
     command
-        .add_option("--vfov", options.vfov, "Full vertical angle of view (default: 40; more inside of rooms)")
+        .add_option("--vfov", options.vfov, "Full vertical angle of view (default: 40; larger inside rooms)")
         ->type_name("DEGREES")
         ->check(between(1e-3, 179.9))
         ->group(kGroup);
-    command.add_option("--up", options.up, "What is up: y (the default), z or a direction")
+    command.add_option("--up", options.up, "Up direction: y (default), z or a vector")
         ->type_name("y|z|X,Y,Z")
         ->check(notEmpty())
         ->group(kGroup);
     CLI::Option* lamp =
         command
-            .add_flag(
-                "--lamp", options.lamp,
-                fmt::format("Add a lamp beside the camera (default: where nothing emits light, or so little "
-                            "that white surfaces would show less than {} % of white on average)",
-                            kDarkPercent))
+            .add_flag("--lamp", options.lamp,
+                      fmt::format(
+                          "Add a lamp beside the camera (default: if nothing emits light, or so little that "
+                          "white surfaces would reflect less than {} % of white on average)",
+                          kDarkPercent))
             ->group(kGroup);
-    command.add_flag("--no-lamp", options.noLamp, "Never add one")->excludes(lamp)->group(kGroup);
+    command.add_flag("--no-lamp", options.noLamp, "Never add a lamp")->excludes(lamp)->group(kGroup);
 }
 
 }  // namespace duolux

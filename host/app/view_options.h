@@ -7,13 +7,13 @@
 
 namespace duolux {
 
-/// The options of camera and lamp, as they are written.
+/// The options for camera and lamp, as given on the command line.
 struct ViewOptions {
     std::string lookAt, position, up;
     std::optional<float> vfov;
     bool lamp = false, noLamp = false;
 
-    /// Camera and lamp only. Throws UsageError.
+    /// The choices of camera and lamp only. Throws UsageError.
     SceneChoices choices() const;
 };
 

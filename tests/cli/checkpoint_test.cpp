@@ -44,7 +44,7 @@ TEST_P(CheckpointCommands, MergeOfPartsIsTheWhole) {
 
     const ProgramResult overlap = run({"merge", "-o", "none.exr", "4", "4"});
     EXPECT_EQ(overlap.status, 3);
-    EXPECT_THAT(overlap.err, HasSubstr("4: has samples 4 to 19, which 4 has, too"));
+    EXPECT_THAT(overlap.err, HasSubstr("4: has samples 4 to 19, which 4 also has"));
     const ProgramResult image = run({"merge", "-o", "none.exr", "whole.exr"});
     EXPECT_EQ(image.status, 3);
     EXPECT_THAT(image.err, HasSubstr("whole.exr: is no checkpoint"));
@@ -59,7 +59,7 @@ TEST_P(CheckpointCommands, AnInterruptedRenderGoesOnAsIfNothingHadHappened) {
     ASSERT_TRUE(exists("state"));
     // A few more than it had, and from the file that it replaces.
     const std::size_t taken =
-        std::stoul(interruptedRender.err.substr(interruptedRender.err.find("what there is, ") + 15));
+        std::stoul(interruptedRender.err.substr(interruptedRender.err.find("result so far, ") + 15));
     const std::string spp = std::to_string(taken / (48 * 32) + 40);
     const ProgramResult resumed =
         render({"--spp", spp, "--resume", "state", "--checkpoint", "state", "-o", "resumed.exr"});

@@ -40,7 +40,7 @@ TEST_F(LostDevice, LeavesAPictureAndACheckpointToGoOnFrom) {
                     "--report", "a.json"});
         EXPECT_EQ(result.status, 1);
         EXPECT_THAT(result.err, AllOf(HasSubstr("failed on llvmpipe"), HasSubstr("ErrorDeviceLost"),
-                                      HasSubstr("; wrote what there is, "), HasSubstr(" of 196608 ")));
+                                      HasSubstr("; wrote the result so far, "), HasSubstr(" of 196608 ")));
         EXPECT_EQ(readImage(folder_ / "part.exr").width, 64u);
         EXPECT_EQ(readImage(folder_ / "part.png").height, 48u);
         const nlohmann::json report = nlohmann::json::parse(contentsOf(folder_ / "a.json"));

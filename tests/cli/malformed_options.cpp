@@ -63,7 +63,7 @@ std::vector<WrongUsage> wrongUsages() {
         render("SampleRangeOfOne", {"--sample-range", "4"}, {"--sample-range 4", "A:B"}),
         render("SampleRangeEmpty", {"--sample-range", "4:4"}, {"--sample-range 4:4", "A < B"}),
         render("SampleRangeBeyond", {"--spp", "8", "--sample-range", "4:9"}, {"4:9", "B <= 8"}),
-        render("ResumeOfNothing", {"--resume", ""}, {"--resume", "not nothing"}),
+        render("ResumeOfNothing", {"--resume", ""}, {"--resume", "not an empty text"}),
         render("CheckpointFolder", {"--checkpoint", "nowhere/state"}, {"--checkpoint", "nowhere"}),
         render("CheckpointIsScene", {"--checkpoint", "good.obj"}, {"good.obj", "read by this command"}),
         {"MergeWithoutOutput", {"merge", "a", "b"}, {"--output"}},

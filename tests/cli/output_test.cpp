@@ -76,8 +76,8 @@ TEST_F(Outputs, MayNotTakeThePlaceOfAnythingThatIsRead) {
 
 TEST_F(Outputs, MayNotTakeThePlaceOfOneAnother) {
     fs::create_symlink("a.png", folder_ / "link.png");  // to a file that is not there yet
-    expectRefused({"q.obj", "-o", "a.png", "-o", "link.png"}, "-o link.png: is written by -o, too");
-    expectRefused({"q.obj", "-o", "a.png", "--report", "./a.png"}, "--report ./a.png: is written by -o, too");
+    expectRefused({"q.obj", "-o", "a.png", "-o", "link.png"}, "-o link.png: is also written by -o");
+    expectRefused({"q.obj", "-o", "a.png", "--report", "./a.png"}, "--report ./a.png: is also written by -o");
 }
 
 TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeTheWork) {

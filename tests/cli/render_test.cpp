@@ -238,7 +238,7 @@ TEST_F(RenderCommand, InterruptWritesWhatThereIsAndExits130) {
         render({"--size", "64x64", "--spp", "10000000", "--quiet", "-o", "a.pfm"},
                DUOLUX_ASSETS "/cornell/cornell.json", ProgramSignal{SIGINT, std::chrono::milliseconds(3000)});
     EXPECT_EQ(result.status, 130);
-    EXPECT_THAT(result.err, HasSubstr("interrupted: wrote what there is"));
+    EXPECT_THAT(result.err, HasSubstr("interrupted: wrote the result so far"));
     EXPECT_EQ(files(), 1u);
     EXPECT_EQ(image("a.pfm").width, 64u);
 }
@@ -246,7 +246,7 @@ TEST_F(RenderCommand, InterruptWritesWhatThereIsAndExits130) {
 TEST_F(RenderCommand, AMissingFolderIsSaidBeforeTheRender) {
     const ProgramResult result = render({"--size", "16x16", "--spp", "1", "-o", "missing/a.png"});
     EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, HasSubstr("there is no folder missing"));
+    EXPECT_THAT(result.err, HasSubstr("the folder missing does not exist"));
     EXPECT_EQ(files(), 0u);
 }
 
