@@ -7,15 +7,15 @@
 
 namespace duolux {
 
-/// What is said of a camera, in the coordinates of the scene's file; the rest is chosen. Vectors are finite,
-/// `up` is not 0, `vfov` is in (0, 180), `height` > 0.
+/// The specified parts of a camera, in the coordinates of the scene's file; the other parts are chosen
+/// automatically. Vectors are finite, `up` is not 0, `vfov` is in (0, 180), `height` > 0.
 struct CameraChoice {
     std::optional<glm::dvec3> position, target, up;
     std::optional<float> vfov;
     std::optional<CameraType> type;
     std::optional<float> height;  ///< of an orthographic image, in scene units
 
-    /// With what `other` says in place of what this says.
+    /// This choice with the parts of `other` taking precedence.
     CameraChoice overriddenBy(const CameraChoice& other) const {
         return {other.position ? other.position : position,
                 other.target ? other.target : target,
@@ -29,7 +29,7 @@ struct CameraChoice {
     struct Contradiction {
         const char *problem, *remedy;
     };
-    /// Nothing if all is well.
+    /// The first contradiction between the parts; empty if they are consistent.
     std::optional<Contradiction> contradiction() const;
 };
 

@@ -14,13 +14,13 @@ namespace duolux {
 
 namespace {
 
-/// Points on the border count as inside, corners of the triangle do not.
+/// Points on the border are inside, except the corners of the triangle.
 bool contains(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& p) {
     if (p == a || p == b || p == c) return false;
     return turnAt(a, b, p) >= 0.0 && turnAt(b, c, p) >= 0.0 && turnAt(c, a, p) >= 0.0;
 }
 
-/// A k-d tree over points that can be switched on and off. Node i has the children 2 i and 2 i + 1.
+/// A k-d tree over points that can be enabled and disabled. Node i has the children 2 i and 2 i + 1.
 class PointTree {
   public:
     explicit PointTree(const std::vector<glm::dvec2>& points) : points_(points), order_(points.size()) {
@@ -44,7 +44,7 @@ class PointTree {
             nodes_[node].on += on ? 1 : -1;
     }
 
-    /// Some point that is on and that the triangle, which is counter-clockwise, contains.
+    /// An enabled point inside the counter-clockwise triangle, if any.
     std::optional<std::uint32_t> findIn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) const {
         std::size_t stack[64];
         std::size_t depth = 0;
@@ -53,7 +53,7 @@ class PointTree {
             const std::size_t index = stack[--depth];
             const Node& node = nodes_[index];
             if (node.on == 0 || !mayOverlap(node, a, b, c)) continue;
-            // Any number of points may lie where a corner does.
+            // Several points may coincide with a corner.
             if (node.lower == node.upper && !contains(a, b, c, node.lower)) continue;
             if (node.isLeaf) {
                 for (std::size_t i = node.begin; i < node.end; ++i) {
@@ -71,15 +71,15 @@ class PointTree {
   private:
     static constexpr std::size_t kLeaf = 8;
 
-    /// Points lie in two boxes: one along the axes, and one along the points' own direction, because a long
-    /// thin triangle along a slanting line of points meets every box along the axes there.
+    /// Each node has two boxes, one along the axes and one along the main direction of its points: a long
+    /// thin triangle along a slanting line of points would intersect all axis-aligned boxes there.
     struct Node {
         glm::dvec2 lower, upper;
         glm::dvec2 along{1.0, 0.0};         ///< unit length
         glm::dvec2 ownLower, ownUpper;      ///< (along, across)
-        std::array<glm::dvec2, 4> corners;  ///< of the box of its own
+        std::array<glm::dvec2, 4> corners;  ///< of the box along the main direction
         std::size_t begin = 0, end = 0;     ///< in order_
-        std::ptrdiff_t on = 0;              ///< how many points are
+        std::ptrdiff_t on = 0;              ///< number of enabled points
         bool isLeaf = true;
 
         glm::dvec2 own(const glm::dvec2& p) const {
@@ -102,7 +102,7 @@ class PointTree {
         const int axis = size.x >= size.y ? 0 : 1;
         const std::size_t middle = begin + (end - begin) / 2;
         const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-        // Equal coordinates are ordered, too, so that the tree does not depend on the library.
+        // Ties are broken by index, so that the tree does not depend on the standard library.
         std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t p, std::uint32_t q) {
             const double x = points_[p][axis], y = points_[q][axis];
             return x < y || (x == y && p < q);
@@ -120,7 +120,7 @@ class PointTree {
             node.upper = glm::max(node.upper, point);
             mean += point / static_cast<double>(node.end - node.begin);
         }
-        // The direction in which the points spread most: the larger eigenvector of their covariance.
+        // The main direction of the points: the eigenvector of the larger eigenvalue of their covariance.
         double xx = 0.0, xy = 0.0, yy = 0.0;
         for (std::size_t i = node.begin; i < node.end; ++i) {
             const glm::dvec2 d = points_[order_[i]] - mean;
@@ -135,7 +135,7 @@ class PointTree {
             node.ownLower = glm::min(node.ownLower, node.own(points_[order_[i]]));
             node.ownUpper = glm::max(node.ownUpper, node.own(points_[order_[i]]));
         }
-        // Rounding of products and of the direction must leave no point outside.
+        // The margin ensures that rounding leaves no point outside.
         node.ownLower -= slack_;
         node.ownUpper += slack_;
         const auto corner = [&](double u, double v) {
@@ -151,14 +151,14 @@ class PointTree {
                glm::any(glm::lessThan(upper, glm::min(glm::min(a, b), c)));
     }
 
-    /// False if a side of the triangle or of one of the boxes separates them.
+    /// False if a side of the triangle, or of one of the boxes, separates triangle and boxes.
     static bool mayOverlap(const Node& box, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
         return !areApart(box.lower, box.upper, a, b, c) &&
                !areApart(box.ownLower, box.ownUpper, box.own(a), box.own(b), box.own(c)) &&
                !isBeyond(box, a, b) && !isBeyond(box, b, c) && !isBeyond(box, c, a);
     }
 
-    /// All corners of the box, and so all its points, are on the outer side.
+    /// Whether all corners of the box, and therefore all its points, are on the outer side.
     static bool isBeyond(const Node& box, const glm::dvec2& from, const glm::dvec2& to) {
         return std::all_of(box.corners.begin(), box.corners.end(),
                            [&](const glm::dvec2& corner) { return turnAt(from, to, corner) < 0.0; });
@@ -192,11 +192,11 @@ class EarClipper {
         for (std::uint32_t left = count_; left > 3; --left) {
             const std::uint32_t ear = chooseCorner(from);
             triangles.push_back({corners_[ear].previous, ear, corners_[ear].next});
-            // Going on behind the ear keeps the triangles from all meeting in one corner.
+            // Continuing behind the ear prevents all triangles from sharing one corner.
             from = corners_[ear].next;
             remove(ear);
         }
-        // The last three in the order of the polygon.
+        // The last three corners, in the order of the polygon.
         std::array<std::uint32_t, 3> rest{corners_[from].previous, from, corners_[from].next};
         std::sort(rest.begin(), rest.end());
         triangles.push_back(rest);
@@ -210,14 +210,14 @@ class EarClipper {
 
     std::uint32_t chooseCorner(std::uint32_t from) {
         while (const auto ear = firstFrom(ears_, from)) {
-            // Corners that have turned inwards since may lie in it.
+            // Corners that have become reflex since then may lie inside the ear.
             if (!findBlocker(*ear)) return *ear;
             updateEar(*ear);
         }
         return firstFrom(straight_, from).value_or(from);
     }
 
-    /// The first corner of the set from `from` on, going around.
+    /// The first corner of the set from `from` on, cyclically.
     static std::optional<std::uint32_t> firstFrom(const std::set<std::uint32_t>& set, std::uint32_t from) {
         if (set.empty()) return std::nullopt;
         const auto found = set.lower_bound(from);
@@ -254,11 +254,11 @@ class EarClipper {
         }
     }
 
-    /// The corner is in no other's way any more.
+    /// Removes a corner from the tree, and unblocks the corners that it has blocked.
     void isGone(std::uint32_t corner) {
         tree_.set(corner, false);
         for (const std::uint32_t other : blocks_[corner]) {
-            if (blocker_[other] != corner) continue;  // another one is by now
+            if (blocker_[other] != corner) continue;  // another corner blocks it now
             blocker_[other] = kNone;
             retry_.push_back(other);
         }
@@ -272,7 +272,7 @@ class EarClipper {
         retry_.clear();
     }
 
-    /// A corner that turns inwards, or not at all, and lies in the triangle that would be cut off.
+    /// A reflex or straight corner inside the triangle that would be cut off, if any.
     std::optional<std::uint32_t> findBlocker(std::uint32_t i) const {
         const Corner& corner = corners_[i];
         return tree_.findIn(points_[corner.previous], points_[i], points_[corner.next]);
@@ -294,12 +294,12 @@ class EarClipper {
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
     const std::vector<glm::dvec2>& points_;
-    PointTree tree_;  ///< of the corners that turn inwards or not at all
+    PointTree tree_;  ///< of the reflex and straight corners
     std::uint32_t count_;
     std::vector<Corner> corners_;
     std::set<std::uint32_t> ears_, straight_;
-    std::vector<std::uint32_t> blocker_;              ///< per corner: what keeps it from being an ear
-    std::vector<std::vector<std::uint32_t>> blocks_;  ///< per corner: those it is, or was, the blocker of
+    std::vector<std::uint32_t> blocker_;  ///< per corner: the corner that prevents it from being an ear
+    std::vector<std::vector<std::uint32_t>> blocks_;  ///< per corner: those that it blocks, or has blocked
     std::vector<std::uint32_t> retry_;
 };
 

@@ -8,7 +8,8 @@ namespace duolux {
 
 namespace {
 
-/// Larger eigenvalue of a non-negative 2x2 matrix; real, as the off-diagonal product is not negative.
+/// The larger eigenvalue of a non-negative 2x2 matrix; real, because the product of the off-diagonal entries
+/// is not negative.
 float spectralRadius(float m00, float m01, float m10, float m11) {
     const float difference = m00 - m11;
     return 0.5f * (m00 + m11 + std::sqrt(difference * difference + 4.0f * m01 * m10));
@@ -40,7 +41,7 @@ MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& a
         const float o10 = albedo[i] * o.m10[i], o11 = albedo[i] * o.m11[i];
         const float m01 = o01 + t.m01[i], m10 = o10 + t.m10[i];
         energy.factor[i] = spectralRadius(o00 + t.m00[i], m01, m10, o11 + t.m11[i]);
-        // A scattering event recurs if it lies on a cycle of the two components.
+        // Scattering can recur if it lies on a cycle of the two components.
         energy.recurs = energy.recurs || o00 > 0.0f || o11 > 0.0f || o01 * m10 > 0.0f || o10 * m01 > 0.0f;
     }
     return energy;

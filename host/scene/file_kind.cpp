@@ -22,7 +22,7 @@ struct Signature {
 
 constexpr std::string_view kLfsRemedy = "expected the file itself, which \"git lfs pull\" fetches";
 
-/// By their first bytes.
+/// Binary formats, identified by their first bytes.
 constexpr std::array kBinary{
     Signature{"PK\x03\x04"sv, "a zip archive"},
     Signature{"\x1F\x8B"sv, "compressed by gzip"},
@@ -50,7 +50,7 @@ constexpr std::array kBinary{
     Signature{"\xFE\xFF"sv, "UTF-16 text"},
 };
 
-/// By the first words, in lower case, behind blanks.
+/// Text formats, identified by their first words in lower case, after white space.
 constexpr std::array kText{
     Signature{"version https://git-lfs"sv, "a Git LFS pointer"},
     Signature{"<!doctype html"sv, "an HTML page"},
@@ -64,7 +64,7 @@ constexpr std::array kText{
     Signature{"#vrml v"sv, "VRML"},
 };
 
-/// By the first word, which OBJ, MTL and JSON do not begin with.
+/// Text formats, identified by a first word that starts no OBJ, MTL or JSON file.
 constexpr std::array kWords{
     Signature{"ply"sv, "PLY"},  Signature{"off"sv, "OFF"},   Signature{"coff"sv, "OFF"},
     Signature{"noff"sv, "OFF"}, Signature{"cnoff"sv, "OFF"}, Signature{"stoff"sv, "OFF"},
@@ -92,7 +92,7 @@ bool isBinaryStl(std::string_view bytes) {
     return bytes.size() == kHeader + kFacet * facets && bytes.find('\0') != std::string_view::npos;
 }
 
-/// The first word, in which there may be anything but blanks.
+/// The first word: any characters except white space.
 std::string_view wordAt(std::string_view text) {
     return text.substr(0, text.find_first_of(kBlanks));
 }
@@ -102,20 +102,20 @@ std::string_view behind(std::string_view text, std::size_t count) {
     return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
 }
 
-/// A path into the objects that git-annex keeps, alone.
+/// Whether the file only contains a path to an object of git-annex.
 bool isAnnexPointer(std::string_view head) {
     const std::string_view path = wordAt(head);
     return (path.starts_with('/') || path.starts_with('.')) &&
            path.find("annex/objects/") != std::string_view::npos;
 }
 
-/// Pairs of a code and a value: a section begins it, perhaps behind comments.
+/// Whether the file is DXF: pairs of a code and a value, starting with a section, possibly after comments.
 bool isDxf(std::string_view head) {
     if (wordAt(head) == "999") return head.find("\nsection") != std::string_view::npos;
     return wordAt(head) == "0" && wordAt(behind(head, 1)) == "section";
 }
 
-/// "asset" with its "version", which no material of that name has.
+/// Whether the file is glTF: "asset" with a "version", which a material named "asset" does not have.
 bool isGltf(std::string_view head) {
     constexpr std::string_view kAsset = "\"asset\"";
     const std::size_t at = head.find(kAsset);
@@ -127,7 +127,7 @@ bool isGltf(std::string_view head) {
            rest.substr(0, rest.find('}')).find("\"version\"") != std::string_view::npos;
 }
 
-/// Latin text in 16 bits a character, without a byte order mark.
+/// Whether the file is Latin text with 16 bits per character and without a byte order mark.
 bool isWideText(std::string_view bytes) {
     constexpr std::size_t kFewest = 8, kMost = 64;
     const std::size_t count = std::min(bytes.size(), kMost) / 2;
@@ -140,7 +140,7 @@ bool isWideText(std::string_view bytes) {
            std::min(zerosFirst, zerosSecond) == 0;
 }
 
-/// Empty if it may be what its name says.
+/// The kind of the content; empty if it may be what the file's name says.
 std::string_view foreignKind(std::string_view bytes, bool jsonExpected) {
     for (const Signature& signature : kBinary) {
         if (bytes.starts_with(signature.bytes)) return signature.kind;

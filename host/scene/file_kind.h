@@ -7,14 +7,14 @@
 
 namespace duolux {
 
-/// A file whose content is of another kind than its name says.
+/// The content of a file is of a different kind than its name says.
 class ForeignFile : public InputError {
   public:
     using InputError::InputError;
 };
 
-/// Throws ForeignFile if the content of a file is evidently not text of `expected`, such as "a Wavefront OBJ
-/// file", but for example an archive, a web page or the pointer that Git LFS leaves in place of a file.
+/// Throws ForeignFile if the content of a file is evidently not `expected` (for example "a Wavefront OBJ
+/// file") but something else, for example an archive, a web page or a Git LFS pointer.
 void expectNoForeignFormat(const std::filesystem::path& path, std::string_view bytes,
                            std::string_view expected);
 

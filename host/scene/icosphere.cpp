@@ -33,7 +33,7 @@ constexpr std::array<Face, 20> kFaces{{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 
                                        {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                                        {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
 
-/// Numbers the vertices: corners, then the inner points of edges, then those of faces.
+/// Numbers the vertices: first the corners, then the inner points of edges, then the inner points of faces.
 class Subdivision {
   public:
     explicit Subdivision(std::uint32_t frequency) : n_(frequency) {
@@ -59,7 +59,7 @@ class Subdivision {
         return static_cast<std::uint32_t>(sphere_.positions.size() - 1);
     }
 
-    /// Once for the two faces that share it, from the lower corner to the higher.
+    /// Created once for the two faces that share the edge, from the lower to the higher corner.
     void addEdge(std::uint32_t a, std::uint32_t b) {
         if (a > b) return;
         edgeStart_[a][b] = static_cast<std::uint32_t>(sphere_.positions.size());
@@ -75,7 +75,7 @@ class Subdivision {
         return a < b ? edgeStart_[a][b] + i - 1 : edgeStart_[b][a] + n_ - i - 1;
     }
 
-    /// Row by row from the side ab towards c.
+    /// Row by row, from the side ab towards c.
     void addFace(const Face& face) {
         const auto& [a, b, c] = face;
         std::vector<std::uint32_t> below(n_ + 1), row;

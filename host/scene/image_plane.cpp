@@ -4,7 +4,7 @@
 
 namespace duolux {
 
-// In double precision, so that each number is rounded once.
+// Computed in double precision, so that each result is rounded once.
 ImagePlane imagePlane(const Camera& camera, double aspect) {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.position));
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
@@ -26,11 +26,11 @@ CameraRay cameraRay(const Camera& camera, const ImagePlane& plane, glm::vec2 poi
 }
 
 RayStart rayStart(const Camera& camera, const Bounds& bounds) {
-    constexpr double kFar = 8.0;  // in sizes of the scene
+    constexpr double kFar = 8.0;  // distance relative to the size of the scene
     const glm::dvec3 position(camera.position);
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - position);
     const glm::dvec3 lower = glm::dvec3(bounds.lower) - position, upper = glm::dvec3(bounds.upper) - position;
-    // Of the corner of the bounds that is the nearest along the axis.
+    // The depth of the corner of the bounds that is nearest along the axis.
     const double nearest =
         glm::dot(forward, glm::mix(upper, lower, glm::greaterThan(forward, glm::dvec3(0.0))));
     const double size = glm::length(upper - lower);

@@ -15,8 +15,8 @@
 
 namespace duolux {
 
-/// A value of a JSON document together with where it is, so that every complaint about it names the file and
-/// the path, what is there and what would be right. All members but the trivial throw InputError.
+/// A value of a JSON document with its location, so that every error names the file, the path, the value and
+/// what would be right. All non-trivial members throw InputError.
 class JsonNode {
   public:
     /// `value` and `file` must outlive the node.
@@ -25,15 +25,15 @@ class JsonNode {
     const std::string& path() const { return path_; }
     const std::filesystem::path& file() const { return *file_; }
 
-    /// It is an object whose keys are all among these.
+    /// Requires an object whose keys are all among these.
     void expectKeys(std::initializer_list<std::string_view> keys) const;
     /// The members of an object, in the order of their names.
     std::vector<std::pair<std::string, JsonNode>> members() const;
     std::optional<JsonNode> find(std::string_view key) const;
-    /// `remedy` is used if there is no such member.
+    /// `remedy` is for the error if there is no such member.
     JsonNode require(std::string_view key, std::string_view remedy) const;
 
-    /// The elements of an array, of exactly `count` if given.
+    /// The elements of an array; exactly `count` if given.
     std::vector<JsonNode> elements(std::string_view remedy,
                                    std::optional<std::size_t> count = std::nullopt) const;
 
@@ -44,7 +44,7 @@ class JsonNode {
     /// A whole number in [low, high].
     std::uint32_t integer(std::uint32_t low, std::uint32_t high) const;
     const std::string& text(std::string_view remedy) const;
-    /// Index of one of the names.
+    /// The index of the value in a list of names.
     std::size_t choice(std::span<const std::string> names) const;
     /// Three numbers in [low, high].
     glm::dvec3 vector(double low, double high, std::string_view remedy) const;
@@ -61,7 +61,7 @@ class JsonNode {
 
     void expectObject() const;
     JsonNode member(std::string_view key, const nlohmann::json& value) const;
-    /// A short account of the value.
+    /// A short description of the value.
     std::string describe() const;
 
     const nlohmann::json* value_;

@@ -37,7 +37,7 @@ const std::string& placeRemedy() {
     return kRemedy;
 }
 
-/// In the coordinates of the files, which may be far from the origin.
+/// A point in the coordinates of the files, which may be far from the origin.
 glm::dvec3 readPlace(const JsonNode& node) {
     return node.vector(-kFarthestPlace, kFarthestPlace, placeRemedy());
 }
@@ -151,7 +151,7 @@ fs::path readMeshPath(const JsonNode& node) {
     return file;
 }
 
-/// A file under one name, whatever "." and links its path holds.
+/// A unique name for a file, independent of "." and links in its path.
 fs::path identity(const fs::path& path) {
     std::error_code ec;
     fs::path canonical = fs::canonical(path, ec);
@@ -198,7 +198,7 @@ void readLight(const JsonNode& node, SceneContents& contents) {
     contents.lights.push_back(std::move(light));
 }
 
-/// Names of materials that no face has.
+/// Names of defined materials that no face has.
 std::set<std::string> unusedMaterials(const SceneContents& contents) {
     std::set<std::string> names;
     for (const Mesh& mesh : contents.meshes)

@@ -9,17 +9,17 @@
 
 namespace duolux {
 
-/// What a scene file says.
+/// The content of a scene file.
 struct SceneFile {
-    Scene scene;                  ///< complete but for camera, hash and what is not said
-    CameraChoice camera;          ///< what it says of it
-    std::size_t framedTriangles;  ///< the first of them are what a camera should show
-    bool hasLights;               ///< it says what "lights" there are, be it none
-    bool hasBounces;              ///< it says how many bounces
+    Scene scene;                  ///< complete except for camera, hash and unspecified values
+    CameraChoice camera;          ///< the specified parts of the camera
+    std::size_t framedTriangles;  ///< number of leading triangles that a camera should show
+    bool hasLights;               ///< whether the file has "lights", even an empty list
+    bool hasBounces;              ///< whether the file specifies the number of bounces
 };
 
-/// Reads the JSON scene format and the meshes it names. Luminaires given apart from meshes may be out of the
-/// picture. Throws InputError.
+/// Reads the JSON scene format and the meshes it names. Luminaires that are not part of a mesh may be out of
+/// view. Throws InputError.
 SceneFile readJsonScene(const std::filesystem::path& path, Reading reading);
 
 }  // namespace duolux

@@ -8,10 +8,10 @@ namespace duolux {
 /// {"preset": name}, {"blend": [t, o]} or {"opaque": M, "transparent": M}.
 Reflectance readReflectance(const JsonNode& node);
 
-/// {"invisible": c, "visible": c, "sides": s}: what is absent stays as it is in `emission`.
+/// {"invisible": c, "visible": c, "sides": s}; absent keys leave `emission` unchanged.
 void readEmission(const JsonNode& node, Emission& emission);
 
-/// Each key of the object overrides what the material has.
+/// Each key of the object overrides a property of the material.
 void readMaterial(const JsonNode& node, Material& material);
 
 }  // namespace duolux

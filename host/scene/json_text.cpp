@@ -20,8 +20,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Follows a parser through the document: where it is, and which keys each open object has had. (json::parse
-/// has a callback for this, with which it takes time by the square of an object's members.)
+/// Tracks the parser's path in the document and the keys of each open object. (json::parse has a callback for
+/// this, but then takes quadratic time in the number of an object's members.)
 class KeyWatch : public nlohmann::json_sax<json> {
   public:
     explicit KeyWatch(std::string file) : file_(std::move(file)) {}
@@ -37,7 +37,7 @@ class KeyWatch : public nlohmann::json_sax<json> {
     bool start_array(std::size_t) override { return open(true); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
-    /// What is wrong is for json::parse to tell.
+    /// json::parse reports the error.
     bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
         return false;
     }
@@ -91,7 +91,7 @@ class KeyWatch : public nlohmann::json_sax<json> {
     std::vector<Level> open_;
 };
 
-/// "line 3, column 5" of a byte; columns count bytes.
+/// "line 3, column 5" for a byte offset; columns count bytes.
 std::string placeOf(const std::string& text, std::size_t offset) {
     const std::size_t end = std::min(offset, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
@@ -113,7 +113,7 @@ std::string explanation(const std::string& message) {
 
 json parseJsonFile(const std::filesystem::path& path) {
     const std::string text = readFile(path);
-    if (text.empty()) {  // the library's versions word this differently
+    if (text.empty()) {  // the library's message depends on its version
         throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty",
                          "expected JSON");
     }

@@ -5,8 +5,8 @@
 
 namespace duolux {
 
-/// Parses a JSON file. Throws InputError: for a syntax error with line and column, for a key that an object
-/// holds twice (which JSON libraries let pass) with its path.
+/// Parses a JSON file. Throws InputError with line and column for a syntax error, and with the path for a
+/// duplicate key (which JSON libraries accept).
 nlohmann::json parseJsonFile(const std::filesystem::path& path);
 
 }  // namespace duolux

@@ -14,29 +14,30 @@
 
 namespace duolux {
 
-/// The MTL files that the meshes of a scene name: each is looked for and read once.
+/// The MTL files that the meshes of a scene name. Each file is searched for and read once.
 class MaterialFiles {
   public:
     explicit MaterialFiles(Reading reading) : reading_(reading) {}
 
     Reading reading() const { return reading_; }
 
-    /// The file that a mesh in `folder` means: of that name, or without quotes, with backslashes as slashes,
-    /// with the extension, in another case, or (for a path of another machine) beside the mesh.
+    /// Finds the file to which a mesh in `folder` refers. Tries the name as it is, without quotes, with
+    /// slashes in place of backslashes, with the extension added, in another case, and (for a path from
+    /// another machine) in the mesh's folder.
     std::optional<std::filesystem::path> find(const std::filesystem::path& folder, std::string_view name);
 
-    /// `isNew` the first time. A file that cannot be read defines nothing, with a warning, unless reading is
-    /// strict: then throws InputError.
+    /// `isNew` is true the first time. A file that cannot be read defines no material and gives a warning; in
+    /// strict reading it throws InputError.
     struct Loaded {
         const MaterialLibrary& library;
         bool isNew;
     };
     Loaded load(const std::filesystem::path& file);
 
-    /// Of the MTL file in `folder` that has nearly that name.
+    /// The name of the MTL file in `folder` that is most similar to a name, if any.
     std::optional<std::string> nearestName(const std::filesystem::path& folder, std::string_view name);
 
-    /// All that were read.
+    /// All files that were read.
     std::vector<const MaterialLibrary*> libraries() const;
 
   private:

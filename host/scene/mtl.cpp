@@ -19,7 +19,7 @@ namespace duolux {
 
 namespace {
 
-/// What is not as it should be, and does not keep a file from being loaded.
+/// Errors that do not prevent a file from being loaded.
 enum class Oddity {
     kBeforeMaterial,
     kUnnamed,
@@ -73,7 +73,7 @@ class MtlReader {
         const bool isColour = keyword == "Kd" || keyword == "Ke";
         if (!inMaterial_) {
             const bool matters = isColour || keyword == "map_Kd";
-            if (anyMaterial_) return;  // of one without a name
+            if (anyMaterial_) return;  // it belongs to a material without a name
             if (reading_ == Reading::kLenient || matters) {
                 tolerate(Oddity::kBeforeMaterial, line, fmt::format("{} before any newmtl", keyword),
                          "expected \"newmtl NAME\" first");
@@ -200,8 +200,8 @@ class MtlReader {
     std::string definedAgain_, aboveOne_;  ///< the first of their kind
     MtlUnused unused_;
     Material material_;                    ///< the current one
-    std::size_t definedAt_ = 0;            ///< its offset
-    std::optional<TextProblem> tooLarge_;  ///< of its colours
+    std::size_t definedAt_ = 0;            ///< offset of the current material
+    std::optional<TextProblem> tooLarge_;  ///< a colour of the current material that is too large
     bool inMaterial_ = false, anyMaterial_ = false;
 };
 

@@ -19,7 +19,7 @@ struct Name {
     std::string_view other;  ///< spelling
 };
 
-// So are all that begin with "map_".
+// All statements that begin with "map_" are also textures.
 constexpr Name kTextureNames[] = {
     {"map_Kd", ""},           {"map_Ks", ""},       {"map_Ke", ""},       {"map_Ns", ""},
     {"map_d", "map_Tr"},      {"map_Pr", ""},       {"map_Pm", ""},       {"map_Ps", ""},
@@ -29,17 +29,18 @@ constexpr Name kTextureNames[] = {
 
 constexpr double kOpaque = 0.999;
 
-/// Of physically based extensions; 0 is what they are without.
+/// Statements of the physically based extensions; 0 has no effect.
 constexpr std::string_view kShineNames[] = {"Pm", "Ps", "Pc"};
 
-/// What says nothing of a diffuse surface, or is looked at below.
+/// Statements that do not affect a diffuse surface, or that are examined below.
 constexpr std::string_view kKnown[] = {"Ka",    "Ks", "Ns",  "Ni",    "d",      "Tr",      "Tf",
                                        "illum", "Pr", "Pcr", "aniso", "anisor", "map_aat", "sharpness"};
 
-/// Statements that matter, as they are spelt.
+/// The correct spelling of statements with an effect.
 constexpr std::string_view kSpellings[] = {"newmtl", "Kd", "Ke"};
 
-/// Smallest and largest of up to three numbers; nothing if the first word is none (as in "spectral FILE").
+/// Smallest and largest of up to three numbers; empty if the first word is not a number (as in "spectral
+/// FILE").
 struct Range {
     double smallest, largest;
 };
@@ -68,7 +69,7 @@ bool isTransparent(int illumination) {
 }  // namespace
 
 void MtlUnused::note(Group group, std::string_view keyword, std::size_t offset) {
-    constexpr std::size_t kMost = 64;  // of a material
+    constexpr std::size_t kMost = 64;  // per material
     if (statements_.size() >= kMost) return;
     const auto same = [&](const Statement& statement) { return statement.keyword == keyword; };
     if (std::none_of(statements_.begin(), statements_.end(), same))
@@ -113,18 +114,19 @@ void MtlUnused::add(std::string_view keyword, std::string_view arguments, std::s
 void MtlUnused::finishMaterial(bool counts) {
     const Values& v = values_;
     if (v.dissolve && *v.dissolve < kOpaque) note(kTransparency, "d", v.dissolveAt);
-    // Some programs write Tr 1 for opaque, along with d 1, which then tells.
+    // Some programs write Tr 1 together with d 1 for opaque materials; d takes precedence.
     if (v.transparency && *v.transparency > 1.0 - kOpaque && v.dissolve.value_or(0.0) < kOpaque) {
         note(kTransparency, "Tr", v.transparencyAt);
     }
-    // Tf 1 1 1 comes from programs that write it for everything.
+    // Some programs write Tf 1 1 1 for every material.
     if (v.filter && (!v.filterIsGrey || (isTransparent(v.illumination) && *v.filter > 0.0))) {
         note(kTransparency, "Tf", v.filterAt);
     }
     if (isTransparent(v.illumination)) {
         note(kTransparency, "illum", v.illuminationAt);
     }
-    // 0.5 is what Blender writes for anything; models 0 and 1 have no highlights, those above 2 reflect.
+    // Blender writes 0.5 for every material. Models 0 and 1 have no highlights; those above 2 have
+    // reflections.
     constexpr double kUsual = 0.5;
     const double specular = v.specular.value_or(0.0);
     if (v.illumination > 2 ? specular > 0.0 : v.illumination == 2 && specular > kUsual) {

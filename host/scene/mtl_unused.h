@@ -11,17 +11,17 @@
 
 namespace duolux {
 
-/// The statements of an MTL file that would change the picture, or are unknown, and have no effect. Those
-/// that every exporter writes, and whose values say nothing special (d 1, illum 2, Ks 0.5), do not count.
+/// Collects the statements of an MTL file that are not supported but would affect the image, or that are
+/// unknown. Default values that exporters write for every material (d 1, illum 2, Ks 0.5) are ignored.
 class MtlUnused {
   public:
-    /// A statement of the current material.
+    /// Adds a statement of the current material.
     void add(std::string_view keyword, std::string_view arguments, std::size_t offset);
 
-    /// The current material is complete; `counts` if it is used.
+    /// Ends the current material; `counts`: whether it is used.
     void finishMaterial(bool counts);
 
-    /// At most four warnings: of textures, of transparency, of what shines, and of unknown statements.
+    /// At most four warnings: about textures, transparency, non-diffuse reflection, and unknown statements.
     void warn(const SourceText& text, std::vector<std::string>& warnings) const;
 
   private:
@@ -32,20 +32,20 @@ class MtlUnused {
         std::size_t materials = 0;
     };
     struct Found {
-        std::vector<Named> keywords;  ///< in the order of their first statements
+        std::vector<Named> keywords;  ///< in the order of first occurrence
         std::size_t materials = 0;
         std::size_t first = 0;  ///< offset of the first statement
-        bool more = false;      ///< than `keywords` names
+        bool more = false;      ///< whether there are more than in `keywords`
     };
     struct Statement {
         Group group;
         std::string_view keyword;
         std::size_t offset;
     };
-    /// Values of the current material, where it gives them.
+    /// Values that the current material specifies.
     struct Values {
         std::optional<double> dissolve, transparency, specular, filter;
-        bool filterIsGrey = true;  ///< 0 or 1 in all channels
+        bool filterIsGrey = true;  ///< Tf is 0 or 1 in all channels
         int illumination = 2;
         std::size_t dissolveAt = 0, transparencyAt = 0, specularAt = 0, filterAt = 0, illuminationAt = 0;
     };

@@ -25,7 +25,7 @@ std::string lowerCase(std::string_view text) {
 }
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
-    // Rows of the dynamic programme: two back, the previous, the current.
+    // Rows of the dynamic programming table: the one before the previous, the previous, the current.
     std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j)
         previous[j] = j;
@@ -45,7 +45,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> nearestName(std::string_view unknown, std::span<const std::string> known) {
-    // Names far longer than others are not misspellings of them, and would only cost time.
+    // A much longer name is not a misspelling; skipping it saves time.
     constexpr std::size_t kLongest = 80;
     const std::string_view compared = unknown.substr(0, kLongest);
     const std::string* nearest = nullptr;

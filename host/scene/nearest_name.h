@@ -8,18 +8,18 @@
 
 namespace duolux {
 
-/// With small ASCII letters.
+/// The text with ASCII letters in lower case.
 std::string lowerCase(std::string_view text);
 
 /// The smallest number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
-/// (restricted Damerau-Levenshtein distance; ASCII case does not count).
+/// (restricted Damerau-Levenshtein distance, ignoring ASCII case).
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-/// One of `known` that `unknown` may be a misspelling of.
+/// The name in `known` of which `unknown` may be a misspelling, if any.
 std::optional<std::string> nearestName(std::string_view unknown, std::span<const std::string> known);
 
-/// For messages about an unknown name: `did you mean "vfov"?` if one of `known` is near, else `expected one
-/// of "position", "target" ...`.
+/// The remedy for an unknown name: `did you mean "vfov"?` if one of `known` is similar, otherwise `expected
+/// one of "position", "target" ...`.
 std::string suggestName(std::string_view unknown, std::span<const std::string> known);
 
 }  // namespace duolux

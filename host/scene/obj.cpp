@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What holds at the first face of a part, and where its triangles go.
+/// The state at the first face of a part, and the position of its triangles in the geometry.
 struct PartStart {
     std::size_t firstTriangle = 0;
     std::uint32_t material = 0;
@@ -33,7 +33,7 @@ struct PartStart {
     std::vector<std::uint32_t> materialIds;  ///< of ObjPart::materials
 };
 
-/// Carries the running state from part to part.
+/// Propagates the current state from part to part.
 std::vector<PartStart> findStarts(const ObjFile& file, ObjMaterials& table) {
     std::vector<PartStart> starts(file.parts.size());
     std::size_t triangles = 0;
@@ -56,7 +56,7 @@ std::vector<PartStart> findStarts(const ObjFile& file, ObjMaterials& table) {
     return starts;
 }
 
-/// Cuts the polygons of one part into triangles, at their place in the geometry.
+/// Triangulates the polygons of one part, at their position in the geometry.
 class PartTriangulator {
   public:
     PartTriangulator(const ObjFile& file, const ObjPart& part, const PartStart& start, Geometry& geometry,
@@ -105,7 +105,7 @@ class PartTriangulator {
         triangulate(polygon_, triangles_);
     }
 
-    /// The triangle stays flat if one of its corners has no normal, or a zero one.
+    /// The triangle stays flat if one of its corners has no normal or a zero normal.
     void setNormals(std::size_t triangle, std::uint32_t begin, const std::array<std::uint32_t, 3>& corners) {
         glm::uvec3 normals;
         for (int i = 0; i < 3; ++i) {
@@ -143,7 +143,7 @@ Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
     parallelFor(file.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             PartTriangulator(file, file.parts[i], starts[i], geometry, groups).run();
-            file.parts[i] = ObjPart();  // its memory is not needed any more
+            file.parts[i] = ObjPart();  // frees the memory
         }
     });
     geometry.positions = std::move(file.positions);

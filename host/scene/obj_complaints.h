@@ -15,8 +15,7 @@
 
 namespace duolux {
 
-/// What the readers of one part of an OBJ file find wrong: counted if it is tolerated, else the first
-/// problem.
+/// Errors in one part of an OBJ file: counts those that are tolerated, and keeps the first other one.
 class ObjComplaints {
   public:
     ObjComplaints(const char* begin, Reading reading, Tally<ObjOddity>& oddities)
@@ -28,7 +27,7 @@ class ObjComplaints {
 
     void count(ObjOddity oddity, const char* at) { oddities_.add(oddity, offsetOf(at)); }
 
-    /// Counts it, or calls `refuse`, which reports it.
+    /// Counts the oddity or, in strict reading, calls `refuse`, which reports it.
     template <typename Refuse>
     void tolerate(ObjOddity oddity, const char* at, const Refuse& refuse) {
         if (strict()) {

@@ -81,7 +81,7 @@ ObjFaceReader::Index ObjFaceReader::readIndex(const char* at) const {
     return {std::string_view(at, static_cast<std::size_t>(past - at)), value};
 }
 
-/// v, v/vt, v//vn or v/vt/vn, and what other programs pass over behind each. Returns past it.
+/// Reads v, v/vt, v//vn or v/vt/vn, and skips trailing text that other programs ignore. Returns the end.
 const char* ObjFaceReader::readCorner(const char* corner, const ObjCounts& seen) {
     const Index vertex = readIndex(corner);
     const char* at = corner + vertex.text.size();

@@ -16,13 +16,13 @@ class ObjFaceReader {
     ObjFaceReader(const char* end, const ObjPartTarget& target, ObjComplaints& complaints, ObjPart& part)
         : end_(end), target_(target), complaints_(complaints), part_(part) {}
 
-    /// A statement `f` with `seen` ahead of it. Faces that name vertices that are not there are left out, and
-    /// the first of them is noted.
+    /// Reads a statement `f` that follows the statements `seen`. Faces with vertex indices out of range are
+    /// left out, and the first of them is recorded.
     void read(const char* line, const char* arguments, const ObjCounts& seen);
 
   private:
     struct Index {
-        std::string_view text;  ///< empty: there is none
+        std::string_view text;  ///< empty: absent
         std::int64_t value = 0;
     };
 
@@ -36,7 +36,7 @@ class ObjFaceReader {
     const ObjPartTarget& target_;
     ObjComplaints& complaints_;
     ObjPart& part_;
-    std::optional<TextProblem> bad_;  ///< of the current face
+    std::optional<TextProblem> bad_;  ///< the problem of the current face
 };
 
 }  // namespace duolux

@@ -20,7 +20,7 @@ bool namesMtlFile(std::string_view name) {
     return lowerCase(fs::path(name).extension().string()) == ".mtl";
 }
 
-/// Words, and what stands in quotes, up to a comment.
+/// Splits a line into words and quoted texts, up to a comment.
 std::vector<std::string_view> wordsOf(std::string_view names) {
     std::vector<std::string_view> words;
     for (std::string_view rest = trimmed(names); !rest.empty() && rest.front() != '#'; rest = trimmed(rest)) {
@@ -48,7 +48,7 @@ void ObjMaterials::load(std::string_view names) {
     }
 }
 
-/// One whose name may hold blanks if there is such a file, else one a word.
+/// Reads the whole line as one name with blanks if such a file exists, otherwise every word as a name.
 std::vector<fs::path> ObjMaterials::filesOf(std::string_view names) {
     const fs::path folder = mesh_.parent_path();
     if (auto whole = files_.find(folder, names)) return {*std::move(whole)};
@@ -64,7 +64,7 @@ std::vector<fs::path> ObjMaterials::filesOf(std::string_view names) {
             missing.push_back(word);
         }
     }
-    // "my colours.mtl" is one name.
+    // "my colours.mtl" is a single name.
     if (files.empty() && std::count_if(words.begin(), words.end(), namesMtlFile) == 1)
         missing = {plainName(uncommented)};
     for (const std::string_view name : missing)
@@ -90,7 +90,7 @@ std::uint32_t ObjMaterials::find(const std::string& name) {
     return entry->second;
 }
 
-/// By the name as it is, else without comment and quotes.
+/// Looks for the name as it is, then without comment and quotes.
 ObjMaterials::Entry ObjMaterials::entryFor(const std::string& name) const {
     Entry entry;
     entry.material.name = name.empty() ? kDefaultMaterialName : name;

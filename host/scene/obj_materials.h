@@ -16,19 +16,19 @@
 
 namespace duolux {
 
-/// The materials of an OBJ file: those of the MTL files it names, and grey ones for what these do not define.
+/// The materials of an OBJ file: those of the MTL files that it names, and grey ones for undefined names.
 class ObjMaterials {
   public:
     ObjMaterials(std::filesystem::path mesh, MaterialFiles& files);
 
-    /// Reads the files that an `mtllib` line names, unless they have been read. Throws InputError.
+    /// Reads the files that an `mtllib` line names, unless they have already been read. Throws InputError.
     void load(std::string_view names);
 
-    /// Index of a material; the empty name is that of faces without one.
+    /// The index of a material; the empty name is for faces without a material.
     std::uint32_t find(const std::string& name);
 
-    /// Materials that faces have, and warnings. Throws InputError if one cannot be used or, in strict
-    /// reading, is not defined.
+    /// Adds the materials that faces use, and warnings, to the mesh. Throws InputError if a material is
+    /// invalid or, in strict reading, undefined.
     void moveTo(Mesh& mesh);
 
   private:
@@ -50,7 +50,7 @@ class ObjMaterials {
     std::vector<Entry> entries_;
     std::unordered_map<std::string, std::uint32_t> index_;  ///< of entries_, by the name in the OBJ
     std::vector<std::string> warnings_;
-    std::set<std::string, std::less<>> lines_;  ///< of mtllib, that have been dealt with
+    std::set<std::string, std::less<>> lines_;  ///< mtllib lines that have been processed
     std::set<const MaterialLibrary*> loaded_;
     std::vector<std::filesystem::path> read_;
     std::optional<std::filesystem::path> firstMissing_;

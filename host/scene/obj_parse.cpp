@@ -52,7 +52,7 @@ ObjCounts countAll(std::string_view text, std::vector<Stretch>& stretches) {
     return total;
 }
 
-/// Where the statement `v` stands for the (ordinal + 1)th time. Only for error messages.
+/// The offset of the (ordinal + 1)th statement `v`. Only for error messages.
 std::size_t offsetOfVertex(std::string_view text, std::size_t ordinal) {
     for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
         const std::string_view line = trimmed(text.substr(begin, text.find('\n', begin) - begin));
@@ -61,13 +61,13 @@ std::size_t offsetOfVertex(std::string_view text, std::size_t ordinal) {
     return 0;
 }
 
-/// The positions of a file, on their way to floats.
+/// Converts the positions of a file to floats.
 class Positions {
   public:
     Positions(const SourceText& text, ObjFile& file, std::vector<glm::dvec3> values)
         : text_(text), file_(file), values_(std::move(values)) {}
 
-    /// Vertices that cannot be used are an error if a face uses one, or there is no face, and counted if not.
+    /// Invalid vertices are an error if a face uses one or there are no faces; otherwise they are counted.
     void settleBadVertices() {
         const bool anyFace = std::any_of(file_.parts.begin(), file_.parts.end(),
                                          [](const ObjPart& part) { return !part.faceEnds.empty(); });
@@ -82,7 +82,7 @@ class Positions {
         }
     }
 
-    /// Makes them floats around the file's origin.
+    /// Converts the positions to floats relative to the file's origin.
     void round(Reading reading) {
         const double tolerance = kUnnoticed * typicalEdge();
         WideBounds all;
@@ -122,8 +122,8 @@ class Positions {
         return used;
     }
 
-    /// Bounds of the vertices that faces use, or of some of them if these are so far apart that there is no
-    /// need of an origin.
+    /// Bounds of the vertices that faces use, or of some of them if these are already so far apart that no
+    /// origin is needed.
     WideBounds usedBounds(const WideBounds& all) const {
         WideBounds bounds;
         for (const ObjPart& part : file_.parts) {
@@ -135,7 +135,7 @@ class Positions {
         return bounds;
     }
 
-    /// The median of two edges each of many faces.
+    /// The median length over two edges of each of many faces.
     double typicalEdge() const {
         constexpr std::size_t kMost = 4096;
         std::size_t faces = 0;
@@ -198,7 +198,7 @@ class Positions {
     std::vector<glm::dvec3> values_;
 };
 
-/// Faces that cannot be used are left out, but not all of them.
+/// Throws if all faces are invalid; a file with some valid faces is loaded without the invalid ones.
 void failWithoutFaces(const SourceText& text, const ObjFile& file) {
     const auto hasFaces = [](const ObjPart& part) { return !part.faceEnds.empty(); };
     if (std::any_of(file.parts.begin(), file.parts.end(), hasFaces)) return;

@@ -11,23 +11,23 @@
 
 namespace duolux {
 
-/// What rounding to floats does to the vertices that faces use.
+/// The effect of rounding to floats on the vertices that faces use.
 struct RoundingLoss {
-    std::size_t vertices = 0;  ///< that it moves by more than kUnnoticed of a typical edge
-    double largest = 0.0;      ///< how far
+    std::size_t vertices = 0;  ///< number of vertices moved by more than kUnnoticed of a typical edge
+    double largest = 0.0;      ///< the largest distance
     double typicalEdge = 0.0;
 };
 
 struct ObjFile {
-    std::vector<glm::vec3> positions;  ///< less `origin`
+    std::vector<glm::vec3> positions;  ///< relative to `origin`
     glm::dvec3 origin{0.0};            ///< see originFor
     RoundingLoss loss;
-    std::vector<glm::vec3> normals;  ///< unit length, or zero where the file has none that can be used
+    std::vector<glm::vec3> normals;  ///< unit, or zero if the file's normal is invalid
     std::vector<ObjPart> parts;      ///< in the order of the file
     Tally<ObjOddity> oddities;       ///< of all parts
 };
 
-/// Reads the statements of an OBJ file, on all cores. Throws InputError for the first that cannot be used.
+/// Reads the statements of an OBJ file on all cores. Throws InputError for the first invalid one.
 ObjFile parseObj(const SourceText& text, Reading reading);
 
 }  // namespace duolux

@@ -16,7 +16,7 @@ namespace duolux {
 
 namespace {
 
-/// Goes through the lines of one part.
+/// Reads the lines of one part.
 class PartReader {
   public:
     PartReader(std::string_view text, const ObjPartTarget& target, Reading reading, ObjPart& part)
@@ -182,7 +182,7 @@ class PartReader {
     const char* begin_;
     const char* end_;
     const ObjPartTarget& target_;
-    ObjCounts seen_;  ///< statements of the file up to the current line, but for faces
+    ObjCounts seen_;  ///< statements of the file before the current line, except faces
     ObjPart& part_;
     ObjComplaints complaints_;
     ObjFaceReader faces_;

@@ -15,41 +15,41 @@
 
 namespace duolux {
 
-/// The faces of a stretch of an OBJ file: polygons whose indices are resolved and in range.
+/// The faces of one part of an OBJ file: polygons with resolved indices that are in range.
 struct ObjPart {
     struct MaterialChange {
-        std::size_t face;  ///< first face of the part that it holds for
+        std::size_t face;  ///< first face of the part to which it applies
         std::string name;  ///< empty: the default
     };
-    /// A vertex that cannot be used.
+    /// An invalid vertex.
     struct BadVertex {
         std::size_t index;  ///< into the vertices of the file
         std::size_t
-            offset;  ///< of the word that is no finite number, or of the statement if there are too few
-        std::optional<int> tooFew = std::nullopt;  ///< how many, then
+            offset;  ///< of the word that is not a finite number, or of a statement with too few numbers
+        std::optional<int> tooFew = std::nullopt;  ///< the number of numbers, if too few
     };
 
-    std::size_t offset = 0;                     ///< of its first byte in the file
-    std::vector<std::uint32_t> faceEnds;        ///< per face: past its last corner
+    std::size_t offset = 0;                     ///< of the part's first byte in the file
+    std::vector<std::uint32_t> faceEnds;        ///< per face: index past its last corner
     std::vector<std::uint32_t> cornerVertices;  ///< per corner, into the vertices of the file
     std::vector<std::uint32_t> cornerNormals;   ///< per corner, into the normals of the file or kNoNormal;
                                                 ///< empty if no corner has one
     std::vector<MaterialChange> materials;
     std::vector<BadVertex> badVertices;
-    std::optional<TextProblem> badFace;  ///< the first that is left out because of its vertices
+    std::optional<TextProblem> badFace;  ///< the first face that is left out because of its vertices
     ObjNotes notes;
 };
 
-/// Where the vertices and normals of one part go.
+/// The destination of the vertices and normals of one part.
 struct ObjPartTarget {
-    std::span<glm::dvec3> positions;  ///< of all the file
-    std::span<glm::vec3> normals;     ///< of all the file: unit length, or zero where there is none
-    ObjCounts before;                 ///< statements of the file ahead of the part
+    std::span<glm::dvec3> positions;  ///< of the whole file
+    std::span<glm::vec3> normals;     ///< of the whole file: unit, or zero if invalid
+    ObjCounts before;                 ///< statements of the file before the part
     ObjCounts total;                  ///< of the whole file
 };
 
-/// Reads whole lines of an OBJ file. Vertices that cannot be used are noted: they matter only if a face uses
-/// them. Returns the first problem; its offset, as all in `part`, is relative to the text.
+/// Reads whole lines of an OBJ file. Invalid vertices are recorded, because they are an error only if a face
+/// uses them. Returns the first problem; its offset, like all offsets in `part`, is relative to the text.
 std::optional<TextProblem> readObjPart(std::string_view text, const ObjPartTarget& target, Reading reading,
                                        ObjPart& part);
 

@@ -11,14 +11,14 @@
 
 namespace duolux {
 
-/// How many of each statement an OBJ text holds.
+/// The numbers of statements in an OBJ text.
 struct ObjCounts {
     std::size_t vertices = 0, textureCoordinates = 0, normals = 0, faces = 0;
 
     ObjCounts& operator+=(const ObjCounts& other);
 };
 
-/// A quick count: only the first letters of each line are looked at. `text` is made of whole lines.
+/// Counts statements quickly, by the first letters of each line. `text` consists of whole lines.
 ObjCounts countStatements(std::string_view text);
 
 enum class ObjKeyword {
@@ -30,12 +30,12 @@ enum class ObjKeyword {
     kSmoothing,
     kMaterial,
     kLibrary,
-    kNeutral,  ///< without meaning for a picture of triangles: names, points and lines, display hints
+    kNeutral,  ///< no effect on an image of triangles: names, points and lines, display hints
     kUnknown
 };
 ObjKeyword objKeywordOf(std::string_view word);
 
-/// What is not as it should be (or not used), and does not keep a file from being loaded.
+/// Errors and unused values that do not prevent a file from being loaded.
 enum class ObjOddity {
     kUnknownStatement,
     kShortFace,
@@ -57,18 +57,18 @@ enum class ObjOddity {
     kCount
 };
 
-/// What is noted beside the geometry, for the statements that matter to a loader of whole scenes.
+/// Information other than the geometry that a loader of whole scenes needs.
 struct ObjNotes {
     struct Smoothing {
-        std::size_t face;     ///< first face it holds for, counted within the part of the text
+        std::size_t face;     ///< first face to which it applies, counted within the part of the text
         std::uint32_t group;  ///< 0: off
     };
     std::vector<Smoothing> smoothing;
-    std::vector<std::string> libraries;  ///< the rest of each mtllib line
+    std::vector<std::string> libraries;  ///< the arguments of each mtllib line
     Tally<ObjOddity> oddities;           ///< offsets are relative to the part
 };
 
-/// One warning for each kind of oddity: the first line, how many, and what becomes of them.
+/// One warning for each kind of oddity: the first line, the number, and the consequence.
 void warnOfOddities(const SourceText& text, const Tally<ObjOddity>& oddities,
                     std::vector<std::string>& warnings);
 

@@ -24,7 +24,7 @@ std::size_t countMoved(std::span<const OriginSample> samples, const glm::dvec3& 
     }));
 }
 
-/// The sample next to the median of each axis, in round numbers of some hundred edges.
+/// The sample nearest to the median of each axis, rounded to multiples of several hundred edges.
 glm::dvec3 originAmid(std::span<const OriginSample> samples) {
     glm::dvec3 median;
     for (int axis = 0; axis < 3; ++axis) {

@@ -7,7 +7,7 @@
 
 namespace duolux {
 
-/// Axis-aligned bounds in double precision, as coordinates in files may need it.
+/// Axis-aligned bounds in double precision, which coordinates in files may require.
 struct WideBounds {
     glm::dvec3 lower{std::numeric_limits<double>::infinity()};
     glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
@@ -23,34 +23,34 @@ struct WideBounds {
     double reach() const;
 };
 
-/// Coordinates beyond this many times the extent of what they describe lose too much of it as floats.
+/// Coordinates larger than this many times the extent of their object are too inaccurate as floats.
 inline constexpr double kFarAway = 8.0;
 
-/// The part of a typical edge by which rounding to floats may move a vertex without notice.
+/// The fraction of a typical edge by which rounding to floats may move a vertex without a warning.
 inline constexpr double kUnnoticed = 1e-3;
 
-/// How far rounding to floats moves a place, along the axis where it is most.
+/// The distance by which rounding to floats moves a point: the maximum over the axes.
 double roundingError(const glm::dvec3& place);
 
-/// No rounding error of coordinates up to `reach` is larger.
+/// Bound on the rounding error of coordinates up to `reach`.
 double largestRoundingError(double reach);
 
 /// 0 if there are none.
 double medianOf(std::vector<double> values);
 
-/// What to take off coordinates before they become floats: nothing, unless they are far from the origin for
-/// their extent, as georeferenced ones are; then a place in their middle in round numbers, which are whole
-/// from an extent of 1 on.
+/// The origin to subtract from coordinates before they are converted to floats: 0, unless they are far from
+/// the origin for their extent, as georeferenced ones are. Then it is a point in their middle, rounded (to
+/// whole numbers if the extent is 1 or more).
 glm::dvec3 originFor(const WideBounds& bounds);
 
-/// A place of a scene and how far rounding may move it.
+/// A point of a scene, and the distance by which rounding may move it.
 struct OriginSample {
     glm::dvec3 place;
     double tolerance;
 };
 
-/// The same, but where rounding would move samples too far, as when a stray triangle lies far from all
-/// others, a place among most of them, if at most half as many suffer there.
+/// The same, but if rounding would move samples too far (for example because a stray triangle is far from all
+/// others), a point among most of the samples, if it at least halves the number of samples that move too far.
 glm::dvec3 originFor(const WideBounds& bounds, std::span<const OriginSample> samples);
 
 }  // namespace duolux

@@ -8,8 +8,8 @@
 
 namespace duolux {
 
-/// A 2x2 matrix per colour channel: entry ij acts from component j on component i, 0 = invisible, 1 =
-/// visible; each entry holds the three channels (r, g, b). Entries are finite and >= 0.
+/// A 2x2 matrix per colour channel: entry ij maps component j to component i, 0 = invisible, 1 = visible;
+/// each entry holds the three channels (r, g, b). Entries are finite and >= 0.
 struct LightMatrix {
     glm::vec3 m00{0.0f}, m01{0.0f}, m10{0.0f}, m11{0.0f};
 
@@ -35,10 +35,10 @@ struct Preset {
 /// local (eq. 14), global (eq. 19), shadowless (eq. 21), one-bounce (eq. 23).
 std::span<const Preset> presets();
 
-/// Nothing if there is no preset of that name.
+/// Empty if there is no preset with this name.
 std::optional<Reflectance> presetReflectance(std::string_view name);
 
-/// "local", "blend 0.5,0.25" or "matrices": how the reflectance is called in reports and metadata.
+/// "local", "blend 0.5,0.25" or "matrices": the name of the reflectance in reports and metadata.
 std::string describeReflectance(const Reflectance& reflectance);
 
 }  // namespace duolux

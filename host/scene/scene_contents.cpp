@@ -15,7 +15,7 @@ namespace duolux {
 
 namespace {
 
-/// The median edge of many triangles.
+/// The median edge length of many triangles.
 double typicalEdge(const Geometry& geometry) {
     constexpr std::size_t kMost = 4096;
     std::vector<double> lengths;
@@ -27,12 +27,12 @@ double typicalEdge(const Geometry& geometry) {
     return medianOf(std::move(lengths));
 }
 
-/// By how much a transform stretches lengths on average.
+/// The mean factor by which a transform scales lengths.
 double scaleOf(const std::optional<glm::dmat4>& transform) {
     return transform ? std::cbrt(std::abs(glm::determinant(glm::dmat3(*transform)))) : 1.0;
 }
 
-/// A place of a mesh in the scene.
+/// Transforms a point of a mesh to the scene.
 glm::dvec3 placed(const SceneContents& contents, const SceneContents::Object& object,
                   const glm::vec3& position) {
     const glm::dvec3 place = contents.meshes[object.mesh].origin + glm::dvec3(position);
@@ -43,7 +43,7 @@ double typicalEdge(const SceneContents::Light& light) {
     return static_cast<double>(std::min(glm::length(light.edge1), glm::length(light.edge2)));
 }
 
-/// Of all objects (by the corners of their bounds) and lights.
+/// The bounds of all objects (by the corners of their bounds) and lights.
 WideBounds boundsOf(const SceneContents& contents) {
     std::vector<Bounds> meshBounds;
     for (const Mesh& mesh : contents.meshes)
@@ -88,7 +88,7 @@ std::vector<OriginSample> samplesOf(const SceneContents& contents) {
     return samples;
 }
 
-/// What rounding moves too far, of objects and lights.
+/// Objects and lights whose vertices rounding moves too far.
 class Losses {
   public:
     void add(const JsonNode& node, double error, double edge) {
@@ -122,7 +122,7 @@ void appendObjects(SceneContents& contents, Scene& scene) {
     Composer composer(scene);
     Losses losses;
     for (Mesh& mesh : contents.meshes)
-        mesh.unusedMaterials.clear();  // that no copy needs
+        mesh.unusedMaterials.clear();  // copies do not need them
     std::vector<std::size_t> uses(contents.meshes.size(), 0);
     for (const SceneContents::Object& object : contents.objects)
         ++uses[object.mesh];
@@ -138,7 +138,7 @@ void appendObjects(SceneContents& contents, Scene& scene) {
                       fmt::format("expected coordinates of at most {:g} in magnitude", kLargestCoordinate));
         }
         if (error > 0.0) {
-            // Vertices that no face uses do not count.
+            // Only vertices that faces use count.
             const auto& [lower, upper] = boundsOf(mesh.geometry);
             const double reach = WideBounds{glm::dvec3(lower), glm::dvec3(upper)}.reach();
             losses.add(node, std::min(error, largestRoundingError(reach)), typicalEdge(mesh.geometry));

@@ -11,8 +11,8 @@
 
 namespace duolux {
 
-/// What "objects" and "lights" of a JSON scene hold, in the coordinates of the files, until the scene's
-/// origin is known.
+/// The "objects" and "lights" of a JSON scene, in the coordinates of the files, until the scene's origin is
+/// known.
 struct SceneContents {
     struct Object {
         JsonNode node;
@@ -28,7 +28,7 @@ struct SceneContents {
     explicit SceneContents(Reading reading) : materialFiles(reading) {}
 
     MaterialFiles materialFiles;
-    std::vector<Mesh> meshes;  ///< each file once, however many objects use it
+    std::vector<Mesh> meshes;  ///< each file once, even if several objects use it
     std::vector<Object> objects;
     std::vector<Light> lights;
 };
@@ -36,7 +36,7 @@ struct SceneContents {
 /// See originFor.
 glm::dvec3 originOf(const SceneContents& contents);
 
-/// Adds the objects to a scene whose origin is set, and takes them out of the contents. Throws InputError.
+/// Moves the objects from the contents to a scene whose origin is set. Throws InputError.
 void appendObjects(SceneContents& contents, Scene& scene);
 
 /// The same for the lights.

@@ -14,7 +14,7 @@ double angleBetween(const glm::vec3& a, const glm::vec3& b) {
     return static_cast<double>(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-/// Smooths one group at a time. `slot_` maps a vertex to its normal within the group, and is clean between
+/// Smooths one group at a time. `slot_` maps a vertex to its normal within the group, and is cleared between
 /// groups.
 class Smoother {
   public:

@@ -7,10 +7,10 @@
 
 namespace duolux {
 
-/// Gives shading normals to the triangles of smoothing groups: at each vertex the mean of the normals of the
-/// triangles of the same group that meet there, weighted by their angles (Thürmer and Wüthrich 1998,
-/// "Computing Vertex Normals from Polygonal Facets"). `groups` holds the group of each triangle, 0 for none;
-/// triangles that have normals already keep them. Geometry::normalIndices must have one entry a triangle.
+/// Computes shading normals for the triangles of smoothing groups: at each vertex the mean of the normals of
+/// the group's triangles, weighted by their angles (Thürmer and Wüthrich 1998, "Computing Vertex Normals from
+/// Polygonal Facets"). `groups` holds the group of each triangle, 0 for none. Existing normals are kept.
+/// Geometry::normalIndices must have one entry per triangle.
 void addSmoothNormals(Geometry& geometry, std::span<const std::uint32_t> groups);
 
 }  // namespace duolux

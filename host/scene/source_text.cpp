@@ -22,7 +22,7 @@ bool isBlank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/// Lone carriage returns end a line on old systems.
+/// On old systems, a carriage return alone ends a line.
 void endLinesByNewline(std::string& bytes) {
     char* const end = bytes.data() + bytes.size();
     for (char* at = bytes.data(); at != end; ++at) {
@@ -32,12 +32,12 @@ void endLinesByNewline(std::string& bytes) {
     }
 }
 
-/// What a line of the file, or several that are joined, begins with. Asked for offsets in ascending order.
+/// Inspects the start of a line (after joining continued lines). Offsets must be ascending.
 class LineStarts {
   public:
     explicit LineStarts(const std::string& bytes) : bytes_(bytes) {}
 
-    /// Finds the line that an offset is in. Line ends that were blanked since do not count.
+    /// Finds the line that contains an offset. Line ends that have been replaced by blanks are ignored.
     void moveTo(std::size_t offset) {
         const std::size_t end = std::string_view(bytes_).substr(seen_, offset - seen_).rfind('\n');
         const bool isNew = end != std::string_view::npos;
@@ -47,7 +47,7 @@ class LineStarts {
     }
 
     bool inComment() const { return comment_; }
-    /// The line holds names, in which a backslash or an unusual blank is a character like any other.
+    /// Whether the line holds names, in which backslashes and unusual blanks are ordinary characters.
     bool holdsNames() const { return names_; }
 
   private:
@@ -70,11 +70,11 @@ class LineStarts {
     bool comment_ = false, names_ = false;
 };
 
-/// Form feeds, vertical tabs and, but in names, no-break spaces are blanks like others.
+/// Form feeds, vertical tabs and (except in names) no-break spaces are blanks.
 void blankUnusualSpaces(std::string& bytes) {
     std::replace_if(
         bytes.begin(), bytes.end(), [](char c) { return c == '\f' || c == '\v'; }, ' ');
-    constexpr char kLead = '\xC2', kNoBreakSpace = '\xA0';  // in UTF-8; Latin-1 has the latter alone
+    constexpr char kLead = '\xC2', kNoBreakSpace = '\xA0';  // both bytes in UTF-8, only the second in Latin-1
     LineStarts lines(bytes);
     for (std::size_t at = bytes.find(kNoBreakSpace); at != std::string::npos;
          at = bytes.find(kNoBreakSpace, at + 1)) {
@@ -85,7 +85,7 @@ void blankUnusualSpaces(std::string& bytes) {
     }
 }
 
-/// Zero bytes fill the last block of a file, and Control-Z ended files of CP/M and DOS.
+/// Zero bytes may pad the last block of a file, and Control-Z ended files on CP/M and DOS.
 void endAtPadding(std::string& bytes) {
     using namespace std::string_view_literals;
     constexpr std::string_view kPadding = "\0\x1A"sv, kPaddingAndBlanks = "\0\x1A \t\r\n"sv;
@@ -94,8 +94,8 @@ void endAtPadding(std::string& bytes) {
         bytes.resize(padding);
 }
 
-/// A backslash continues a line if only blanks stand between it and the line's end. Where it ends a name, as
-/// in "g back\", it belongs to that.
+/// A backslash continues a line if only blanks follow it on the line. At the end of a name, as in "g back\",
+/// it is part of the name.
 std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
     std::vector<std::size_t> joins;
     LineStarts lines(bytes);
@@ -177,11 +177,11 @@ ReadNumber readNumber(const char* at, const char* end) {
     double value = 0.0;
     const auto [past, error] = std::from_chars(first, end, value);
     if (error == std::errc::invalid_argument) return {nullptr, 0.0};
-    // Too large or too small: infinite or nearly zero.
+    // Out of range: the result is infinite or nearly zero.
     if (error == std::errc::result_out_of_range)
         value = std::strtod(std::string(first, past).c_str(), nullptr);
     if (past == end || *past != '#') return {past, value};
-    // As in 1.#IND, which Microsoft's library wrote; any other "#" begins a comment.
+    // As in 1.#IND, which Microsoft's library used to write; any other "#" begins a comment.
     static constexpr std::array<std::string_view, 4> kNotFinite{"#IND", "#INF", "#QNAN", "#SNAN"};
     const std::string_view rest(past, static_cast<std::size_t>(end - past));
     if (std::none_of(kNotFinite.begin(), kNotFinite.end(), [&](auto name) { return rest.starts_with(name); }))

@@ -11,17 +11,17 @@
 
 namespace duolux {
 
-/// What is wrong with a text, and where.
+/// A problem in a text, and its position.
 struct TextProblem {
     std::size_t offset;  ///< bytes from the start of the text
     std::string problem;
     std::string remedy;
 };
 
-/// A line-based text file (OBJ, MTL) made regular for parsers: every line ends in '\n' (or "\r\n"), also the
-/// last; a byte order mark and unusual blanks are blanks; a line continued by '\' is joined, unless it is a
-/// comment; zero bytes and Control-Z at the end are left out. Offsets stay those of the file, so that any of
-/// them gives the line number as an editor shows it.
+/// A line-based text file (OBJ, MTL), normalised for parsers: every line, including the last, ends in '\n'
+/// (or "\r\n"); a byte order mark and unusual blanks are replaced by blanks; lines continued by '\' are
+/// joined, except comments; zero bytes and Control-Z at the end are removed. Offsets are those of the file,
+/// so that each gives the line number that an editor shows.
 class SourceText {
   public:
     /// Throws InputError if the file cannot be read or is not text, ForeignFile if it is evidently not
@@ -32,7 +32,7 @@ class SourceText {
     std::string_view view() const { return bytes_; }
     std::size_t size() const { return bytes_.size(); }
 
-    /// 1 for the first line.
+    /// The line number of an offset; 1 for the first line.
     std::size_t lineOf(std::size_t offset) const;
 
     /// "FILE: line N: PROBLEM; REMEDY".
@@ -45,20 +45,20 @@ class SourceText {
     std::vector<std::size_t> joins_;  ///< offsets of the line ends that continuation replaced, ascending
 };
 
-/// Without blanks at both ends.
+/// The text without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
 /// The text up to the first blank or line end.
 std::string_view firstWord(std::string_view text);
 
-/// Without the comment that "#" begins behind a blank, and without blanks at both ends.
+/// The text without a comment ("#" after a blank) and without blanks at both ends.
 std::string_view withoutComment(std::string_view text);
 
-/// A name without a comment and the quotes around it.
+/// A name without a comment and without quotes around it.
 std::string_view plainName(std::string_view name);
 
-/// A number as %g writes it, also "nan", "inf" and "1.#IND" in their variants, which are not finite. `past`
-/// is null if none starts there.
+/// Reads a number as %g writes it, including the variants of "nan", "inf" and "1.#IND", which are not finite.
+/// `past` is null if there is no number at this position.
 struct ReadNumber {
     const char* past;
     double value;

@@ -5,13 +5,14 @@
 
 namespace duolux {
 
-/// What a reader does about statements that are wrong, but do not matter or can only mean one thing.
+/// How a reader handles incorrect statements that are harmless or have only one plausible meaning.
 enum class Reading {
-    kLenient,  ///< reads them as other programs do, and warns once a kind
-    kStrict    ///< refuses them
+    kLenient,  ///< reads them as other programs do, with one warning for each kind
+    kStrict    ///< rejects them
 };
 
-/// How often each of the kinds of an enumeration (whose last is kCount) occurs in a text, and where first.
+/// For each value of an enumeration (whose last value is kCount): the number of occurrences in a text, and
+/// the offset of the first.
 template <typename Kind>
 class Tally {
   public:
@@ -25,7 +26,7 @@ class Tally {
         if (entry.count++ == 0) entry.first = offset;
     }
 
-    /// Adds those of a later part of the text, which begins at `offset`.
+    /// Adds the tally of a later part of the text, which begins at `offset`.
     void append(const Tally& later, std::size_t offset) {
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             if (entries_[i].count == 0) entries_[i].first = later.entries_[i].first + offset;

@@ -13,7 +13,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Newell's method: twice the area vector of a closed polygon, also of one that is not quite plane.
+/// Newell's method: twice the area vector of a closed polygon, even if it is not exactly planar.
 glm::dvec3 areaVector(std::span<const glm::vec3> corners) {
     glm::dvec3 sum(0.0);
     const glm::dvec3 origin(corners[0]);
@@ -23,7 +23,7 @@ glm::dvec3 areaVector(std::span<const glm::vec3> corners) {
     return sum;
 }
 
-/// The polygon along its largest extent, turned so that it runs counter-clockwise.
+/// Projects the polygon along the largest component of its normal, with counter-clockwise order.
 std::vector<glm::dvec2> project(std::span<const glm::vec3> corners, const glm::dvec3& area) {
     const glm::dvec3 size = glm::abs(area);
     const int drop = size.x > size.y && size.x > size.z ? 0 : (size.y > size.z ? 1 : 2);
@@ -39,7 +39,7 @@ std::vector<glm::dvec2> project(std::span<const glm::vec3> corners, const glm::d
 }
 
 bool isConvex(const std::vector<glm::dvec2>& points) {
-    // Every turn to the left, and once around only: the sum of the turns of a star is more than one round.
+    // All turns are to the left, and their sum is one revolution (it is more for a star polygon).
     double round = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::dvec2& a = points[i];
@@ -49,7 +49,7 @@ bool isConvex(const std::vector<glm::dvec2>& points) {
         if (turn <= 0.0) return false;
         round += std::atan2(turn, glm::dot(b - a, c - b));
     }
-    return round < 7.0;  // 2 pi, and not 4 pi
+    return round < 7.0;  // 2 pi rather than 4 pi
 }
 
 void fan(std::uint32_t count, std::vector<Triangle>& triangles) {
@@ -59,7 +59,7 @@ void fan(std::uint32_t count, std::vector<Triangle>& triangles) {
 
 void cutQuadrilateral(std::span<const glm::vec3> corners, const glm::dvec3& area,
                       std::vector<Triangle>& triangles) {
-    // The smaller of the areas, towards the front, of the two triangles that a diagonal makes.
+    // The smaller of the signed areas of the two triangles at a diagonal; positive on the front.
     auto smallerHalf = [&](std::uint32_t from) {
         const glm::dvec3 a(corners[from]), b(corners[from + 1]), c(corners[from + 2]),
             d(corners[(from + 3) % 4]);

@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How the triangles are shared out: 2 for the luminaire, 40 f^2 for the spheres, the rest for the five
-/// walls.
+/// The distribution of the triangles: 2 for the luminaire, 40 f^2 for the spheres, the remaining ones for the
+/// five walls.
 struct Division {
     std::uint32_t sphereFrequency;
     std::uint32_t wallCells;                 ///< of ceiling, back and side walls, along each side
-    std::uint32_t floorCellsX, floorCellsZ;  ///< make the sum right
+    std::uint32_t floorCellsX, floorCellsZ;  ///< chosen to give the right total
 };
 
 Division divide(std::size_t triangles) {
@@ -52,7 +52,7 @@ Division divide(std::size_t triangles) {
     return division;
 }
 
-/// OBJ text in the making.
+/// Builds OBJ text.
 class ObjWriter {
   public:
     explicit ObjWriter(std::size_t triangles) {
@@ -70,7 +70,7 @@ class ObjWriter {
         ++vertices_;
     }
 
-    /// Indices from 0, counted from `firstVertex`.
+    /// Indices from 0, relative to `firstVertex`.
     void face(std::size_t firstVertex, const glm::uvec3& corners) {
         text_ += 'f';
         for (int i = 0; i < 3; ++i)
@@ -111,7 +111,7 @@ void writeSphere(ObjWriter& obj, const Sphere& sphere, const Icosphere& unit) {
         obj.face(first, triangle);
 }
 
-/// The front of the rectangle is the side of edge1 x edge2.
+/// The front of the rectangle is on the side of edge1 x edge2.
 struct Wall {
     const char* material;
     glm::dvec3 origin, edge1, edge2;
