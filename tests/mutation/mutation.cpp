@@ -21,7 +21,7 @@ std::string trimmed(std::string_view text) {
     return std::string(text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin));
 }
 
-/// The fields of a line; the change itself may have " | " in it. Nothing if it is not a mutation.
+/// The fields of a line; the change itself may contain " | ". Empty if the line is not a mutation.
 std::optional<Mutation> parse(const std::string& text) {
     static const std::regex kLine(R"((\S+) \| (.*?) =>(.*?) \| ([^|]*?)( \| equivalent: ([^|]+))?)");
     std::smatch m;

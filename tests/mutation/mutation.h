@@ -9,13 +9,14 @@
 
 namespace duolux::test {
 
-/// A line of a list: FILE | OLD => NEW | WHY, and for one that no test can catch: | equivalent: REASON.
+/// A line of a list: FILE | OLD => NEW | WHY; for a mutation that no test can detect, followed by
+/// | equivalent: REASON.
 struct Mutation {
     std::size_t line = 0;
     std::string file, before, after, why, equivalent;
     std::string caughtBy;  ///< the first test that failed; empty: it survived
     bool compiles = true;
-    std::string crash;  ///< how the tests ended instead of failing
+    std::string crash;  ///< how the tests ended, if they did not fail normally
 
     bool decided() const { return !compiles || !caughtBy.empty() || !crash.empty(); }
 };
@@ -24,27 +25,28 @@ struct MutationList {
     std::string name;            ///< of its file, for messages
     std::filesystem::path root;  ///< what the files are relative to
     std::vector<Mutation> mutations;
-    std::map<std::string, std::string> first;  ///< by file: the tests that find most
+    std::map<std::string, std::string> first;  ///< by file: the tests that detect most mutations
 
-    /// By default those that are named after the file.
+    /// The tests of a file; by default those named after it.
     std::string firstTests(const Mutation& m) const;
-    /// Keeps those of files whose name contains this.
+    /// Keeps the mutations of files whose name contains a text.
     void keepOnly(const std::string& part);
 };
 
-/// Throws InputError at the first line that makes no sense, or does not fit the files below the root.
+/// Reads a list. Throws InputError at the first line that is malformed or does not match the files below the
+/// root.
 MutationList readMutations(const std::filesystem::path& list, const std::filesystem::path& root);
 
-/// The file with the mutation in it. Throws InputError unless what is to be replaced is there exactly once.
+/// The file with the mutation applied. Throws InputError unless the text to be replaced occurs exactly once.
 std::string mutated(const MutationList& list, const Mutation& m);
 
-/// Notes in the mutation which test failed, or how else the tests ended.
+/// Records in the mutation which test failed, or how else the tests ended.
 void noteResult(const ProgramResult& result, Mutation& m);
 
-/// Prints what was changed, and what came of it.
+/// Prints the change and its result.
 void printVerdict(const MutationList& list, const Mutation& m);
 
-/// Prints what is to be done about the list, and its score. Whether that is as good as the goal, in per cent.
+/// Prints the survivors and the score of the list. Returns whether the score reaches the goal, in per cent.
 bool printScore(const MutationList& list, double goal);
 
 }  // namespace duolux::test

@@ -1,4 +1,4 @@
-// Changes the sources in small plausible ways, one at a time, and asks the tests about each.
+// Applies small plausible changes to the sources, one at a time, and checks that the tests detect them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

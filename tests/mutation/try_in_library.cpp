@@ -14,17 +14,17 @@ namespace duolux::test {
 
 namespace {
 
-/// Runs the tests with these sources, and notes in the mutation what comes of it. Tests named *Oracles* are
-/// left out: they share the library's source.
+/// Runs the tests with these sources and records the result in the mutation. Tests named *Oracles* are
+/// excluded, because they share the library's source.
 void runTests(const std::filesystem::path& sources, const std::string& filter, Mutation& m) {
     const ProgramResult result =
         runProgram(DUOLUX_SHADER_TEST, sources,
                    {"--sources", sources.string(), "--gtest_brief=1",
                     "--gtest_filter=" + filter + "-*Oracles*:Harness*:Coverage*:TestDevice*"},
                    std::nullopt, std::chrono::seconds(300));
-    // Nothing has the name of this file: the whole suite will tell.
+    // No tests are named after this file: the whole suite is run.
     if (result.err.find("no test's name matches") != std::string::npos) return;
-    // A mutation that is no program is no test of the tests.
+    // A mutation that does not compile says nothing about the tests.
     m.compiles = result.out.find("ERROR: ") == std::string::npos;
     noteResult(result, m);
 }

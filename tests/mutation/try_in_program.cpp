@@ -21,7 +21,7 @@ using std::chrono::steady_clock;
 /// The fast ones first.
 constexpr const char* kTests[] = {"film_test", "gpu_test", "statistical_test"};
 
-/// All files but hidden ones and what was built, relative to the root.
+/// All files except hidden ones and build output, relative to the root.
 std::set<fs::path> sourcesIn(const fs::path& root) {
     std::set<fs::path> files;
     for (const fs::directory_entry& top : fs::directory_iterator(root)) {
@@ -63,7 +63,7 @@ class Copy {
     }
 
   private:
-    /// Files that are the same keep their time, so that little is built again.
+    /// Unchanged files keep their modification times, so that little is rebuilt.
     void bringUpToDate() const {
         fs::create_directories(sources_);
         const std::set<fs::path> files = sourcesIn(project_);
@@ -90,8 +90,7 @@ class Copy {
     fs::path build_ = sources_ / "build" / "release";
 };
 
-/// How long the tests of each program may take that the filter lets through: many times what they take
-/// without any mutation.
+/// Time limit for the filtered tests of each program: many times their duration without mutations.
 using Limits = std::map<std::string, seconds>;
 
 Limits limitsWithoutMutation(const Copy& copy, const std::string& filter) {
@@ -126,7 +125,7 @@ void tryOne(const Copy& copy, const MutationList& list, const std::string& filte
 
 void tryInProgram(MutationList& list) {
     const Copy copy(list.root);
-    // The tests that find most about a file, then all for what these have missed.
+    // First the tests that detect most mutations of a file, then all tests for the remaining mutations.
     std::map<std::string, Limits> limits;
     for (const Mutation& m : list.mutations) {
         Limits& here = limits[list.firstTests(m)];

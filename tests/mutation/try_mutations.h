@@ -4,11 +4,11 @@
 
 namespace duolux::test {
 
-/// Asks the shader tests about each: they compile the library when they run, so nothing is built.
+/// Runs the shader tests for each mutation; they compile the library at run time, so nothing is built.
 void tryInLibrary(MutationList& list);
 
-/// Asks the tests of the host and of what it renders about each, which takes a build: in a copy of the
-/// project, which is kept for the next time.
+/// Builds each mutation in a copy of the project, which is kept for the next run, and runs the tests of the
+/// host and of its renders.
 void tryInProgram(MutationList& list);
 
 }  // namespace duolux::test

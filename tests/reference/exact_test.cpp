@@ -4,7 +4,7 @@
 #include "tests/support/agreement.h"
 #include "tests/support/exact_case.h"
 
-// The reference itself against closed forms, before it judges anything.
+// The reference itself against closed forms, because other tests rely on it.
 
 namespace duolux::test {
 

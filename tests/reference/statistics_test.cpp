@@ -71,7 +71,7 @@ TEST(LambertPolygon, ClosedForms) {
     EXPECT_NEAR(lambertPolygon(Vec3(0.0), {1, 0, 0}, sky), std::numbers::pi / 2, 1e-5);
 }
 
-/// Renders that are nothing but noise about `mean`, their pixels' spread varying over the image.
+/// Renders that consist of noise about `mean`, with a standard deviation that varies over the image.
 std::vector<RadianceImage> noise(double bias, double ripple) {
     std::mt19937_64 random(7);
     std::exponential_distribution<double> unit;

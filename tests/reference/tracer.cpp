@@ -21,7 +21,7 @@ struct Surface {
     bool scattersFromBack = false, emitsFromBack = false;
 };
 
-/// A scattering event about to happen.
+/// A possible scattering event.
 struct Vertex {
     Vec3 position, normal;  ///< unit normal on the side of the outgoing direction
     std::uint32_t triangle;
@@ -61,7 +61,7 @@ class Tracer {
     ChannelLight radiance(const Ray& ray, Walker& walker) const {
         ChannelLight light{};
         gather(ray, Triangles::kNone, identityPerChannel(), 0, walker, &light);
-        // Every vertex of the camera ray is followed; a walk reuses the list, hence the copy.
+        // Every vertex of the camera ray is followed. The list is copied because a walk reuses it.
         const std::vector<Vertex> first = walker.vertices;
         for (const Vertex& vertex : first)
             follow(vertex, walker, light);
@@ -71,8 +71,8 @@ class Tracer {
   private:
     const Surface& surfaceOf(std::uint32_t triangle) const { return surfaces_[materialOf_[triangle]]; }
 
-    /// Walks straight along the ray with the row weights M: each surface met adds M E, may scatter by M O,
-    /// and passes M T on to what lies behind. Leaves the possible scattering vertices in walker.vertices.
+    /// Follows a ray with the row weights M: each surface adds M E, may scatter by M O, and transmits M T to
+    /// the surfaces behind. Stores the possible scattering vertices in walker.vertices.
     void gather(const Ray& ray, std::uint32_t from, ChannelMatrix weight, std::uint32_t bouncesSoFar,
                 Walker& walker, ChannelLight* light) const {
         walker.vertices.clear();

@@ -7,10 +7,10 @@
 
 namespace duolux::reference {
 
-/// How light is found from a scattering vertex.
+/// How direct light at a scattering vertex is sampled.
 enum class LightSearch : std::uint8_t {
-    kArea,      ///< a point on the emitters, uniform by area: for small lights, away from surfaces
-    kDirection  ///< whatever a cosine-distributed direction meets: for large lights
+    kArea,      ///< points on the emitters, uniform in area: for small lights away from surfaces
+    kDirection  ///< cosine-distributed directions: for large lights
 };
 
 struct Settings {
@@ -33,9 +33,9 @@ struct Estimates {
     std::vector<Estimate> pixels;
 };
 
-/// Gathers vector-valued light by brute force in double precision. The estimator is deliberately plain and
-/// unlike the kernels': no roulette, no multiple importance sampling, Mersenne twisters. The same settings
-/// give the same numbers on any number of threads.
+/// Brute-force path tracer for vector-valued light in double precision. The estimator is deliberately simple
+/// and different from the kernels: no Russian roulette, no multiple importance sampling, Mersenne twisters.
+/// Identical settings give identical numbers on any number of threads.
 Estimates trace(const Scene& scene, const Settings& settings);
 
 }  // namespace duolux::reference

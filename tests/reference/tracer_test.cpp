@@ -68,10 +68,10 @@ TEST(Triangles, SphereAndBoxHaveTheirAreasAndFaceAsAsked) {
     EXPECT_NEAR(boxArea, 2.0 * (4 * 6 + 6 * 8 + 8 * 4), 1e-9);
 }
 
-/// Two ways of finding light, of which one uses no emitter list, area, cosine or shadow ray: they must agree.
+/// Both methods for direct light must agree; one of them uses no emitter list, area, cosine or shadow ray.
 TEST(ReferenceTracer, LightSearchesAgree) {
     Scene scene = mixedCornellBox();
-    // A lamp large enough to be met by chance.
+    // A lamp that is large enough to be hit by chance.
     for (glm::vec3& p : scene.geometry.positions) {
         if (p.y == 548.3f) p = {278.0f + 3.0f * (p.x - 278.0f), p.y, 279.0f + 3.0f * (p.z - 279.0f)};
     }

@@ -9,14 +9,14 @@
 
 namespace duolux::reference {
 
-/// Where a ray meets a surface.
+/// The intersection of a ray with a surface.
 struct Crossing {
     double distance;
     std::uint32_t triangle;
-    bool front;  ///< met from the side that the winding makes the front
+    bool front;  ///< the ray comes from the front, as the winding defines it
 };
 
-/// All triangles of a scene, intersected one by one: no acceleration structure that could be wrong.
+/// Intersects all triangles of a scene one by one, without an acceleration structure that could have errors.
 class Triangles {
   public:
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -29,8 +29,8 @@ class Triangles {
     /// Point with barycentric coordinates (1 - u - v, u, v).
     Vec3 point(std::uint32_t triangle, double u, double v) const;
 
-    /// Every surface met before `limit`, nearest first; `from` and `to` are left out: a ray leaves or ends on
-    /// them.
+    /// All surfaces before `limit`, nearest first. `from` and `to`, on which the ray starts and ends, are
+    /// excluded.
     void crossings(const Ray& ray, double limit, std::uint32_t from, std::uint32_t to,
                    std::vector<Crossing>& found) const;
 

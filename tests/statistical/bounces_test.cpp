@@ -6,8 +6,8 @@
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
 
-// What the renderer says of its last bounces, by which it warns of a limit that cuts light off. The paths of
-// renders that differ in the limit alone are the same up to there, so that the means differ by one bounce.
+// The statistics of the last bounces, by which the renderer warns of a limit that cuts light off. Renders
+// that differ only in the limit have identical paths up to it, so that their means differ by one bounce.
 
 namespace duolux::test {
 

@@ -7,8 +7,8 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/tunings.h"
 
-// Surfaces in the same place, and triangles that reach far: by both integrators, and as if they were a little
-// apart.
+// Coincident surfaces and very large triangles, with both integrators: the image must equal that of slightly
+// separated surfaces.
 
 namespace duolux::test {
 namespace {
@@ -87,7 +87,7 @@ TEST_F(Coincident, FiltersAreMetInOneOrderByBothIntegrators) {
     }
 }
 
-/// A lamp above a floor, and what it gives the floor, or shows, as the camera looks.
+/// A lamp above a floor, and the expected radiance of the floor or the lamp, whichever the camera sees.
 class Lamp : public Coincident {
   protected:
     Lamp() {
@@ -114,7 +114,7 @@ class Lamp : public Coincident {
         material.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
         return material;
     }
-    /// Both integrators against the same with surfaces apart.
+    /// Compares both integrators with the same scene with separated surfaces.
     void expectAs(const Scene& apart) {
         const Scene together = builder_.scene;
         for (const bool up : {false, true}) {
@@ -164,7 +164,7 @@ TEST_F(Lamp, InThePlaneOfACeilingShines) {
     builder_ = floor;
 }
 
-// A surface that lets light through, before another that scatters it: the vertex is on the second of the two.
+// A transmitting surface before a scattering one: the vertex is on the second.
 TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
     builder_.scene.reflectance = preset("one-bounce");
     const SceneBuilder floor = builder_;

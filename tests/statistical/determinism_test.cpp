@@ -9,9 +9,9 @@
 #include "tests/support/device.h"
 #include "tests/support/exact_case.h"
 
-// The same seed gives the same bits, however the work is cut: a sample must depend on its pixel, its index
-// and the seed alone, and sums must be exact. A random state carried from one sample to the next, a sum in
-// floating point, a race between lanes, and buffers that keep something from the dispatch before all show.
+// The same seed gives bitwise identical images, however the work is divided: a sample must depend only on its
+// pixel, its index and the seed, and sums must be exact. These tests detect random state that is carried from
+// one sample to the next, floating-point sums, races between lanes, and stale data from an earlier dispatch.
 
 namespace duolux::test {
 
@@ -140,8 +140,8 @@ TEST(Determinism, LightPathsOfManyCrossingsAreWhole) {
 }
 
 TEST(Determinism, PathsOfManyCrossingsAreWhole) {
-    // A hundred surfaces a ray. Drivers that end long loops without a word must not end these: what was cut
-    // short is traced again, in smaller parts.
+    // A hundred surfaces per ray. Some drivers silently end long loops; such dispatches are traced again in
+    // smaller parts.
     Scene panes = stackedPanesCase(100).scene;
     panes.render.width = panes.render.height = 10;
     panes.render.spp = 9;
@@ -183,7 +183,7 @@ TEST(Determinism, DispatchesAreBoundedWhereAPathMeetsManySurfaces) {
     parts.maxPixelsPerDispatch = 128;
     const RenderOutput output = render(device(), stack, parts);
     EXPECT_EQ(output.film.totalSamples(), 32u * 32u * 20u);
-    // Aimed at 0.1 s; machines are noisy, but not ten times over.
+    // The target is 0.1 s; timing noise stays below a factor of ten.
     EXPECT_LT(output.statistics.longestDispatchSeconds, 1.0);
     EXPECT_TRUE(sameBits(output.film, filmOf(stack)));
 

@@ -6,7 +6,8 @@
 #include "tests/support/device.h"
 #include "tests/support/exact_case.h"
 
-// The kernels against closed forms. What each family of cases catches is told where it is built.
+// The kernels against closed forms. The files that build the cases describe the errors that each family
+// detects.
 
 namespace duolux::test {
 
@@ -66,7 +67,7 @@ TEST(ClosedForm, IsChosenWhereItAppliesAndPays) {
         return renderSeeds(scene, 1, 1).directLightInClosedForm;
     };
     EXPECT_TRUE(applies("local"));
-    EXPECT_FALSE(applies("shadowless"));  // it would apply, but not pay
+    EXPECT_FALSE(applies("shadowless"));  // possible, but not worthwhile
     EXPECT_FALSE(applies("global"));
     EXPECT_FALSE(applies("one-bounce"));
     RenderControl control;

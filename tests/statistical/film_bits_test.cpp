@@ -14,9 +14,9 @@
 #include "tests/support/device.h"
 #include "tests/support/tunings.h"
 
-// While the renderer is restructured, its pictures stay the same, bit by bit: hashes of films from before
-// that work. They hold for lavapipe 22.3 (LLVM 15) on x86-64 processors with FMA, so they are no part of
-// every run. Layouts and kernels are compared with one another in layouts_test.cpp.
+// Hashes of films that ensure that refactoring leaves images bitwise identical. They are valid for lavapipe
+// 22.3 (LLVM 15) on x86-64 processors with FMA, and therefore not part of every run. layouts_test.cpp
+// compares layouts and kernels with each other.
 
 namespace duolux::test {
 

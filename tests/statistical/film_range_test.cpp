@@ -5,7 +5,7 @@
 #include "tests/support/device.h"
 #include "tests/support/scene_builder.h"
 
-// Dim and bright light in one scene: what a film holds of them.
+// The range of a film: dim and bright light in one scene.
 
 namespace duolux::test {
 namespace {
@@ -41,7 +41,7 @@ class FilmRange : public testing::TestWithParam<Integrator> {
         return sum / (8.0 * (endColumn - firstColumn));
     }
 
-    /// Gathered exactly; light paths of a visible emitter have noise.
+    /// Exact with the path tracer; with the light tracer, a visible emitter has noise.
     double tolerance() const { return GetParam() == Integrator::kLight ? 0.05 : 1e-4; }
 
     SceneBuilder builder_;
@@ -57,7 +57,7 @@ TEST_P(FilmRange, DimLightIsKeptBesideBrightEmittersOutOfSight) {
     EXPECT_FALSE(output.statistics.filmOverflowed);
 }
 
-// Both in view, 10^8 times apart: neither is lost, and there is no bias.
+// Both in view, with a ratio of 10^8: both are held without bias.
 TEST_P(FilmRange, BrightAndDimInOnePicture) {
     panel(-2.0f, 0.0f, 1e-4f);
     panel(0.0f, 2.0f, 1e4f);
@@ -100,7 +100,7 @@ TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
     EXPECT_GT(image.visible[127 * 256 + 128].x, 0.3f * largest);
     EXPECT_LE(image.visible[127 * 256 + 128].x, largest);
     EXPECT_EQ(image.visible[0].x, 1.0f);
-    // A part of it is held, though it was not seen at first.
+    // The film holds part of its radiance, although the first look missed it.
     for (Material& material : scene.materials)
         material.emission.visible = glm::min(material.emission.visible, glm::vec3(5e10f));
     EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);

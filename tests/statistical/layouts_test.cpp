@@ -12,8 +12,8 @@
 #include "tests/support/exact_case.h"
 #include "tests/support/tunings.h"
 
-// Where a scene lies in device memory and when lanes get new rays makes no difference to a picture: not a bit
-// where the rays are our own, and no more than rounding where the driver intersects triangles.
+// The image does not depend on the layout of the scene in device memory, nor on when lanes get new rays: it
+// is bitwise identical with our own traversal, and equal up to rounding if the driver intersects triangles.
 
 namespace duolux::test {
 
@@ -76,8 +76,8 @@ TEST_P(Layouts, OfOurOwnTreeGiveTheSameBits) {
     }
 }
 
-/// Rounding of distances and barycentrics moves what follows by as little; only where a ray passes an edge on
-/// its other side do a sample's paths differ, and then no more than two samples do: the means are the same.
+/// Rounding of distances and barycentric coordinates changes a path only slightly. Paths differ only where a
+/// ray passes an edge on the other side, and then no more than two samples do: the means are equal.
 TEST_P(Layouts, OfTheDriversTreeGiveTheSamePicture) {
     if (!device().info().rayQueries) {
         EXPECT_THROW(render(device(), GetParam().scene, controlOf(kByRayQuery)), UsageError);

@@ -17,8 +17,8 @@
 #include "tests/support/exact_case.h"
 #include "tests/support/scene_builder.h"
 
-// Light paths against closed forms, and against gathering, which shares neither the direction in which
-// matrices are multiplied nor the densities. (cornell_test.cpp compares them with the reference.)
+// The light tracer against closed forms and against the path tracer, which uses a different order of matrix
+// products and different densities. (cornell_test.cpp compares it with the reference.)
 
 namespace duolux::test {
 
@@ -170,8 +170,9 @@ INSTANTIATE_TEST_SUITE_P(Often, Pair, testing::ValuesIn(everyOther(pairCases(), 
 INSTANTIATE_TEST_SUITE_P(Nightly, Pair, testing::ValuesIn(everyOther(pairCases(), 1)),
                          [](const auto& test) { return test.param.name; });
 
-/// Light of which both components arrive alike must be connected whatever the display shows of them: roulette
-/// is for what is not displayed, and would only add noise. The rays of the same paths tell.
+/// If both components arrive equally, every vertex must be connected, whichever component is displayed:
+/// Russian roulette is only for the component that is not displayed. The number of rays of identical paths
+/// shows this.
 TEST(LightPaths, WhatIsDisplayedIsAlwaysConnected) {
     Scene scene = byLight(emptyCornellBox());
     scene.reflectance = preset("global");

@@ -12,7 +12,7 @@
 
 namespace duolux::test {
 
-/// Renders of one scene that differ in their seed alone.
+/// Renders of one scene that differ only in their seeds.
 struct Renders {
     std::vector<RadianceImage> images;
     bool directLightInClosedForm = false;
@@ -23,12 +23,11 @@ struct Renders {
 Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed = 1,
                     const RenderControl& control = {});
 
-/// The same with direct light found in the other way, sampled or in closed form; nothing where it has no
-/// closed form.
+/// The same with the other method for direct light, sampled or closed form; empty if there is no closed form.
 std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t spp, std::uint32_t seeds,
                                             const Renders& renders);
 
-/// The same by light paths.
+/// The same with the light tracer.
 Renders renderByLight(Scene scene, std::uint32_t spp, std::uint32_t seeds);
 
 /// Every second of the cases, beginning with the `first`. Where cases take long, those with an even number
@@ -44,8 +43,8 @@ std::vector<Case> everyOther(const std::vector<Case>& cases, std::size_t first) 
 /// Means over the renders, with their variances.
 reference::Estimates estimatesOf(const Renders& renders);
 
-/// Fails the running test if the renders disagree with the expectation, and then leaves pictures of both and
-/// of the Welch statistic in the build directory, under artefacts/<name>.
+/// Fails the running test if the renders disagree with the expectation, and then writes images of both and of
+/// the Welch statistic to artefacts/<name> in the build directory.
 void expectAgreement(const std::string& name, const Renders& renders, const reference::Estimates& expected,
                      Criterion criterion = {});
 

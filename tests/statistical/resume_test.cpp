@@ -8,8 +8,8 @@
 #include "tests/support/device.h"
 #include "tests/support/exact_case.h"
 
-// A render that goes on from any state in which another was kept, and the sum of renders of ranges of
-// samples, have the same bits as one render in one go, whichever the integrator.
+// A render that resumes from any saved state, and the sum of renders of ranges of samples, are bitwise
+// identical to a single render, with both integrators.
 
 namespace duolux::test {
 
@@ -73,7 +73,7 @@ TEST_P(Resume, WithMoreSamplesGivesTheBitsOfThese) {
     RenderControl control;
     control.resume = &state;
     EXPECT_TRUE(sameBits(render(device(), scene(), control).film, render(device(), scene(), {}).film));
-    // And with fewer leaves all as it was.
+    // With a smaller spp, the film stays unchanged.
     const RenderOutput fewer = render(device(), scene(5), control);
     EXPECT_TRUE(sameBits(fewer.film, some.film));
     EXPECT_EQ(fewer.statistics.samples, 0u);
@@ -98,7 +98,7 @@ TEST_P(Resume, GoesOnInTheUnitOfItsFilm) {
 }
 
 TEST_P(Resume, StoppedAnywhereLosesNothing) {
-    // What the driver cuts short is being traced again when the render is stopped.
+    // The render is stopped while work that the driver ended early is traced again.
     const Scene panes = manyPanes();
     const Film whole = render(device(), panes, {}).film;
     for (int after = 1; after < 6; ++after) {

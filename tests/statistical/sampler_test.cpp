@@ -10,8 +10,8 @@
 #include "tests/support/cornell.h"
 #include "tests/support/scene_builder.h"
 
-// Both samplers must have the same mean; the low-discrepancy one earns its keep by less noise, and neither
-// may correlate pixels, on which every test of blocks relies.
+// Both samplers must have the same mean, the low-discrepancy sampler must have less noise, and neither may
+// correlate pixels, on which every test of blocks relies.
 
 namespace duolux::test {
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kSeeds = 16;
 
-/// Direct and twice reflected light in an empty room: as smooth as a picture gets.
+/// Direct and twice reflected light in an empty room: a very smooth image.
 Scene smoothBox(Sampler sampler) {
     Scene scene = emptyCornellBox();
     scene.reflectance = preset("global");
@@ -90,7 +90,7 @@ TEST_P(BothSamplers, MeanIsThatOfTheReference) {
 }
 
 TEST_P(BothSamplers, PixelsAreNotCorrelated) {
-    // Negative correlation, as of blue noise, would be welcome.
+    // Negative correlation, as in blue noise, is allowed.
     const Renders renders = renderSeeds(smoothBox(GetParam()), 16, kSeeds);
     for (const auto& [dx, dy] :
          {std::pair(1u, 0u), std::pair(0u, 1u), std::pair(1u, 1u), std::pair(8u, 0u), std::pair(0u, 8u)}) {

@@ -70,7 +70,7 @@ TEST(Translation, SameImageFarFromTheOrigin) {
     EXPECT_LT(std::abs(d.signedMean), 1e-3);
 }
 
-/// The scaled images might all be wrong alike: the extremes are held against the reference too.
+/// The scaled images could all have the same error, so the extremes are also compared with the reference.
 TEST(Translation, ExtremeScalesMatchReference) {
     reference::Settings settings;
     settings.width = settings.height = 48;

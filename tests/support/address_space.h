@@ -8,14 +8,15 @@
 
 namespace duolux::test {
 
-/// The address sanitizer takes more address space than any limit leaves.
+/// The address sanitizer needs more address space than any limit leaves.
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr bool kAddressSanitizer = true;
 #else
 inline constexpr bool kAddressSanitizer = false;
 #endif
 
-/// While it lives, this process can map only so many bytes more. Without effect under the address sanitizer.
+/// Limits the additional bytes that this process can map during its lifetime. Has no effect under the address
+/// sanitizer.
 class AddressSpaceLimit {
   public:
     explicit AddressSpaceLimit(std::size_t more) {

@@ -13,8 +13,8 @@ namespace duolux::test {
 namespace {
 
 constexpr const char* kComponent[2] = {"invisible", "visible"};
-/// A pixel has few distinct values, on which a few renders may all agree by chance and leave no variance to
-/// test with.
+/// A pixel has few distinct values, so that a few renders may agree by chance, which leaves no variance for a
+/// test.
 constexpr std::size_t kEnoughForPixels = 10;
 constexpr char kChannel[3] = {'r', 'g', 'b'};
 
@@ -82,8 +82,8 @@ struct Values {
     }
 };
 
-/// What few light paths reach shows too little variance, or none; it has as much, at least, as what is
-/// expected there has on the average of the image.
+/// A block that few light paths reach shows too little variance or none. Its variance is assumed to be at
+/// least its expected value times the image's ratio of variance to mean.
 Mean withVarianceOfImage(RenderedMean rendered, double expected, double varianceToMean) {
     if (rendered.reached < kEnoughForPixels)
         rendered.mean.variance = std::max(rendered.mean.variance, expected * varianceToMean);
@@ -174,10 +174,10 @@ void judgeScale(const Values& values, std::span<const RadianceImage> renders, st
                     failed > 0 ? "FAILED " : "", across, down, size, failed, level, worstWhere);
 }
 
-/// Do the pixels of each component and channel scatter about the expectation as their variances say? The
-/// squares of t average to n/(n-2) for n degrees of freedom; a bias of either sign and of less than a
-/// standard error, as long as it is widespread, raises that where no single pixel stands out. Allows 6
-/// standard deviations, which needs no table, and a tenth for estimators that are not quite normal.
+/// Tests whether the pixels of each component and channel scatter about the expectation as their variances
+/// predict. The mean square of t is n/(n-2) for n degrees of freedom. A widespread bias of either sign raises
+/// it, even if the bias is below a standard error and no single pixel stands out. Allows 6 standard
+/// deviations, which needs no table, and 10 % for estimators that are not exactly normal.
 void judgeScatter(const Values& values, const Criterion& criterion, Agreement& agreement) {
     double worst = 0.0;
     std::string worstWhere = "none";

@@ -13,10 +13,10 @@ struct Criterion {
     double alpha = 1e-4;     ///< probability that any test of the family fails though the means agree
     double relative = 1e-5;  ///< of the expected value: what is not statistical, such as rounding
     double absolute = 1e-9;  ///< radiance
-    /// The renders are by light paths, each of which may reach many pixels: these are not independent, and
-    /// blocks are judged by how the renders differ in the mean over the block. Where fewer than 10 renders
-    /// have any light at all the variance is at least what is expected there times the image's ratio of
-    /// variance to mean.
+    /// The renders are by the light tracer. A light path may reach many pixels, so pixels are not
+    /// independent, and the variance of a block is that of its mean over the renders. If fewer than 10
+    /// renders have any light in a block, its variance is at least the expected value times the image's ratio
+    /// of variance to mean.
     bool lightPaths = false;
 };
 

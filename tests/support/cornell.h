@@ -16,7 +16,7 @@ enum CornellMaterial : std::uint32_t { kWhite, kRed, kGreen, kLight, kShort, kTa
 Scene mixedCornellBox();
 
 /// The box with three kinds of emitter: its luminaire, a two-sided pane inside, and a short block whose top
-/// glows in visible light alone. All surfaces have the scene's reflectance.
+/// emits only visible light. All surfaces have the scene's reflectance.
 Scene lampsCornellBox();
 
 /// The box without its blocks, its luminaire seen by the camera (the paper's eq. 11): a smooth image.

@@ -16,7 +16,7 @@ std::unique_ptr<Device>& opened() {
     return device;
 }
 
-/// What the validation layer has said since it was last asked fails the test.
+/// Fails the test if there are new validation messages.
 void checkMessages(std::size_t& seen) {
     const std::vector<std::string> messages = opened()->validationMessages();
     for (std::size_t i = seen; i < messages.size(); ++i)
@@ -30,7 +30,7 @@ class ValidationListener : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
         if (opened() != nullptr) checkMessages(seenMessages);
     }
-    /// Of what came after the last test.
+    /// Checks messages after the last test.
     void OnEnvironmentsTearDownEnd(const testing::UnitTest&) override {
         if (opened() != nullptr) checkMessages(seenMessages);
     }
@@ -53,7 +53,7 @@ Device& device() {
     try {
         if (opened() == nullptr) opened() = std::make_unique<Device>(deviceSelector(), Validation::kOn);
     } catch (const UsageError& e) {
-        // That speaks of an option of the program.
+        // The exception's message refers to an option of the program.
         throw UsageError("DUOLUX_DEVICE=" + deviceSelector() + ": " + e.what());
     }
     return *opened();

@@ -6,16 +6,16 @@
 
 namespace duolux::test {
 
-/// The one device of a test executable, opened when a test first asks for it: the one that the environment
-/// variable DUOLUX_DEVICE chooses (default "cpu"), with validation on. Throws MachineError or UsageError if
-/// there is none. In every executable that links duolux_test_device a test fails if there was any validation
-/// message.
+/// The device of a test executable, opened on first use: the environment variable DUOLUX_DEVICE selects it
+/// (default "cpu"), and validation is on. Throws MachineError or UsageError if there is none. In every
+/// executable that links duolux_test_device, a test fails if there are any validation messages.
 Device& device();
 
-/// Closes it, if it is open: drivers may be gone when main() has ended. Done when GoogleTest's tests are.
+/// Closes the device if it is open, because drivers may be unloaded after main() has returned. Called at the
+/// end of GoogleTest's tests.
 void closeDevice();
 
-/// What DUOLUX_DEVICE says.
+/// The value of DUOLUX_DEVICE.
 std::string deviceSelector();
 
 }  // namespace duolux::test

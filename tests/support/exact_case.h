@@ -14,10 +14,10 @@ struct ExactCase {
     std::string name;  ///< letters and digits
     Scene scene;       ///< size and bounces set
     reference::Estimates expected;
-    /// Which light search has a finite variance here; only the reference needs to be told.
+    /// The light search with a finite variance; only the reference needs it.
     reference::LightSearch search = reference::LightSearch::kDirection;
     double relative = 1e-5;  ///< error of the closed form and of single precision
-    bool onePoint = false;   ///< every pixel sees the same point, which no light path meets
+    bool onePoint = false;   ///< every pixel sees the same point, which no light path hits
 };
 
 /// For messages of the test framework.
@@ -31,7 +31,7 @@ std::vector<ExactCase> enclosureCases();
 /// Concentric spheres that pass light on: products of T in the order met from the camera.
 std::vector<ExactCase> crossingCases();
 
-/// Any objects whose emission makes up for what they withhold: the image is uniform whatever their shape.
+/// Objects whose emission compensates for the light that they absorb: the image is uniform for all shapes.
 std::vector<ExactCase> furnaceCases();
 
 /// A diffuse receiver below an unoccluded rectangle: Lambert's polygon formula.

@@ -18,8 +18,8 @@ struct ProgramSignal {
     std::chrono::milliseconds after;  ///< since the start
 };
 
-/// Runs a program (a path) with arguments in `folder`, and waits for it; sends it a signal on the way if
-/// asked to. One that takes more than `limit` is ended by SIGALRM.
+/// Runs a program (a path) with arguments in `folder` and waits for it, optionally sending it a signal.
+/// SIGALRM ends a program that takes longer than `limit`.
 ProgramResult runProgram(const std::string& program, const std::filesystem::path& folder,
                          std::vector<std::string> arguments,
                          std::optional<ProgramSignal> signal = std::nullopt,

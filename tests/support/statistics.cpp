@@ -94,7 +94,7 @@ ChiSquare chiSquare(std::span<const double> observed, std::span<const double> ex
         bins.back().observed += observed[i];
         bins.back().expected += expected[i];
     }
-    // What is left at the end may be too little for a bin of its own.
+    // The remaining counts at the end may be too small for a separate bin.
     if (bins.size() > 1 && bins.back().expected < minimum) {
         const Bin rest = bins.back();
         bins.pop_back();
@@ -107,13 +107,13 @@ ChiSquare chiSquare(std::span<const double> observed, std::span<const double> ex
         if (bin.expected > 0.0) result.statistic += off * off / bin.expected;
     }
     result.degrees = static_cast<double>(bins.size()) - 1.0;
-    // One bin has nothing to say: that is no test that was passed.
+    // With a single bin nothing is tested, which must not count as passed.
     result.p = result.degrees > 0.0 ? chiSquareTail(result.statistic, result.degrees) : 0.0;
     return result;
 }
 
 double studentTwoSided(double t, double degrees) {
-    // Far beyond any table the normal distribution is the same to the precision that a level needs.
+    // For very many degrees of freedom, the normal distribution is accurate enough.
     if (degrees > 1e6) return std::erfc(std::abs(t) / std::sqrt(2.0));
     return incompleteBeta(0.5 * degrees, 0.5, degrees / (degrees + t * t));
 }

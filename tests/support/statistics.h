@@ -19,9 +19,9 @@ struct ChiSquare {
     double degrees = 0.0;
     double p = 1.0;
 };
-/// `observed` and `expected`: counts, of the same sum up to rounding. Bins are merged, those with the lowest
-/// expectations first, until each expects at least `minimum`. p is 0 where something is in a bin that expects
-/// nothing, and where one bin is all that is left.
+/// `observed` and `expected`: counts with equal sums up to rounding. Bins are merged, those with the lowest
+/// expectations first, until each expects at least `minimum`. p is 0 if a bin that expects nothing is not
+/// empty, or if only one bin remains.
 ChiSquare chiSquare(std::span<const double> observed, std::span<const double> expected, double minimum = 5.0);
 
 /// Level of each of `tests` independent tests whose family errs with probability `alpha` (Sidak, JASA 62,

@@ -7,7 +7,7 @@
 
 namespace duolux::test {
 
-/// Every layout and kernel that a device has.
+/// Every layout and kernel that a device supports.
 inline std::vector<TuningChoice> allTunings(const DeviceInfo& device) {
     std::vector<TuningChoice> all;
     for (const Layout layout : {Layout::kTexel, Layout::kStorage}) {

@@ -2,11 +2,12 @@
 
 #include "tests/support/exact/receiver.h"
 
-// Between receiver and luminaire stand two panes, the lower met first from the receiver: by eq. 16 the
-// receiver shows albedo / pi O T_lower T_upper E times Lambert's formula. Commuting T's tell whether the
-// transmittance is there at all, the others whether it is multiplied in order, on segments whose search may
-// meet surfaces in any order. The shortcuts that skip a shadow ray where nothing can withhold light (`local`)
-// or stop it at the first hit (T = 0) must look at every material, not at the scene's.
+// Between receiver and luminaire there are two panes; a ray from the receiver crosses the lower one first. By
+// eq. 16 the receiver has the radiance albedo / pi O T_lower T_upper E times Lambert's formula. Commuting
+// matrices T test whether transmittance is applied at all, others whether it is multiplied in order on
+// segments whose traversal may find surfaces in any order. Shortcuts that skip a shadow ray if no surface can
+// block light (`local`), or end it at the first hit (T = 0), must consider every material, not only the
+// scene's reflectance.
 
 namespace duolux::test {
 
@@ -128,7 +129,7 @@ std::vector<ExactCase> blockerCases() {
     // Two panes at the same place are two panes, and nothing limits their number.
     add("BlockerCoincident", {mixing, preset("global"), {{kAmber, 0.7f}, {kAmber, 0.7f}}});
     cases.push_back(stackedPanesCase(24));
-    // Strictly triangular T's: passing in this order leaves nothing, in the other something.
+    // Strictly triangular T's: their product is zero in this order, and non-zero in the other.
     const LightMatrix raise = matrix(0, 1, 0, 0), lower = matrix(1, 0, 0, 0);
     add("BlockerExtinct", {mixing, preset("global"), {{raise, 0.7f}, {lower, 1.3f}}});
     add("BlockerNotExtinct", {mixing, preset("global"), {{lower, 0.7f}, {raise, 1.3f}}});

@@ -38,8 +38,8 @@ Scene view(SceneBuilder builder, glm::vec3 position, float vfov, std::uint32_t b
     return scene;
 }
 
-/// Two spheres from outside. Facing inwards, each is met first from its back, which is dark, then from its
-/// front.
+/// Two spheres seen from outside. They face inwards, so a ray first crosses the back of each, which is dark,
+/// then its front.
 ExactCase fromOutside(const char* name, const LightMatrix& outer, const LightMatrix& inner, Sides sides) {
     SceneBuilder builder;
     Emission a = kGlow[0], b = kGlow[1];
@@ -81,7 +81,7 @@ std::vector<ExactCase> crossingCases() {
         fromOutside("CrossingOutsideBA", kSecond, kFirst, Sides::kFront),
         fromOutside("CrossingOutsideBothSidesAB", kFirst, kSecond, Sides::kBoth),
         fromOutside("CrossingOutsideBothSidesBA", kSecond, kFirst, Sides::kBoth),
-        // A nilpotent T: whatever passes it twice is gone.
+        // A nilpotent T: light that crosses it twice vanishes.
         fromOutside("CrossingNilpotent", kFirst, matrix(0.0f, 1.0f, 0.0f, 0.0f), Sides::kBoth),
         // What the camera sees through, while invisible light passes as in `local`: needs no second column.
         fromOutside("CrossingSeeThrough", matrix(1.0f, 0.0f, 1.0f, 0.0f), matrix(1.0f, 0.0f, 1.0f, 0.0f),

@@ -44,7 +44,7 @@ Material furnaceMaterial(const char* name, const LightMatrix& transparent, doubl
 }
 
 ExactCase furnace(std::string name, bool panes, std::uint32_t bounces) {
-    // T L <= L in both components, so that nothing emits or scatters less than nothing.
+    // T L <= L in both components, so that no emission or scattering is negative.
     const LightMatrix a{{0.2f, 0.6f, 0.1f}, {0.5f, 0.1f, 0.2f}, {0.1f, 0.7f, 0.9f}, {0.2f, 0.5f, 0.1f}};
     const LightMatrix b{{0.7f, 0.1f, 0.2f}, {0.1f, 0.3f, 0.1f}, {0.2f, 0.2f, 0.4f}, {0.4f, 0.3f, 0.7f}};
     const LightMatrix c{{0.0f, 0.2f, 0.3f}, {0.8f, 0.2f, 0.1f}, {0.3f, 0.0f, 0.5f}, {0.0f, 0.6f, 0.2f}};

@@ -142,7 +142,7 @@ std::vector<ExactCase> lambertCases() {
     turned.sides = Sides::kFront;
     add("LambertFrontOnlyReceiver", {turned, square, kEye, 0.0});
     add("LambertFarSide", {flat, square, {0.99f, -0.1f, 0.05f}, 0.0});
-    // An emitter that turns its back is dark.
+    // The back of a one-sided emitter is dark.
     add("LambertEmitterTurnedAway", {flat, {square[0], square[3], square[2], square[1]}, kEye, 0.0});
     cases.push_back(twoEmitters());
     cases.push_back(floorImage({"LambertFloorImage", preset("local"), {}}));
@@ -152,7 +152,7 @@ std::vector<ExactCase> lambertCases() {
                            {}};
     cases.push_back(floorImage({"LambertFloorAmberTeal", full, {amber, teal}}));
     cases.push_back(floorImage({"LambertFloorTealAmber", full, {teal, amber}}));
-    // Both are met, one after the other.
+    // The ray crosses both, one after the other.
     const LightMatrix half = matrix(0.5f, 0, 0, 0.75f), third = matrix(0.3f, 0, 0, 0.6f);
     cases.push_back(floorImage({"LambertFloorCoincidentPanes", full, {half, third}, 0.0f}));
     cases.push_back(floorImage({"LambertFloorOpaqueToVisible", preset("global"), {matrix(1, 0, 0, 0)}}));

@@ -1,5 +1,5 @@
-// A Vulkan layer that makes a device fail, so that tests see what the program does then. It reads the
-// environment:
+// A Vulkan layer that makes a device fail, so that tests can check how the program reacts. Environment
+// variables:
 //   DUOLUX_FAULT_LOST=N      the device is lost with the N-th submission (from 0), and stays lost
 //   DUOLUX_FAULT_MEMORY=N    the N-th allocation (from 0) finds no device memory
 //   DUOLUX_FAULT_HEAP=BYTES  all memory heaps are that large
