@@ -49,7 +49,7 @@ TEST_F(BenchCommand, MeasuresEverythingOnASmallScene) {
         return json["results"][static_cast<std::size_t>(at - names.begin())];
     };
     EXPECT_GT(of("cornell/rays/primary")["notes"]["nodes_per_ray"].get<double>(), 1.0);
-    // Half a pair for each triangle at least, and the root.
+    // At least half a pair for each triangle, and the root.
     const double bytes = of("cornell/upload")["notes"]["bytes_per_triangle"];
     EXPECT_GT(bytes, 32.0 + 80.0 / 38.0);
     EXPECT_NEAR(bytes * 38.0 * 1e-6, of("cornell/upload")["work"], 1e-9);

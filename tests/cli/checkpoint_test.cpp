@@ -5,7 +5,7 @@
 
 #include "tests/cli/run_duolux.h"
 
-// Renders in parts, as a user runs them, have the same bytes as one in one go.
+// Renders in parts, as a user runs them, give bytewise identical files to a single render.
 
 namespace duolux::test {
 namespace {
@@ -57,7 +57,7 @@ TEST_P(CheckpointCommands, AnInterruptedRenderGoesOnAsIfNothingHadHappened) {
                ProgramSignal{SIGINT, std::chrono::milliseconds(700)});
     ASSERT_EQ(interruptedRender.status, 130) << interruptedRender.err;
     ASSERT_TRUE(exists("state"));
-    // A few more than it had, and from the file that it replaces.
+    // A few more samples, with a checkpoint that replaces the resumed one.
     const std::size_t taken =
         std::stoul(interruptedRender.err.substr(interruptedRender.err.find("result so far, ") + 15));
     const std::string spp = std::to_string(taken / (48 * 32) + 40);
@@ -72,14 +72,14 @@ TEST_P(CheckpointCommands, AnInterruptedRenderGoesOnAsIfNothingHadHappened) {
 }
 
 TEST_P(CheckpointCommands, TheRangeOfACheckpointIsTrue) {
-    // Fewer samples than it has: all are kept, and told.
+    // Fewer samples than the checkpoint holds: all are kept, with a warning.
     ASSERT_EQ(render({"--spp", "10", "--checkpoint", "ten", "-o", "ten.exr"}).status, 0);
     ASSERT_EQ(render({"--spp", "5", "--resume", "ten", "--checkpoint", "five", "-o", "five.exr"}).status, 0);
     EXPECT_EQ(bytes("five.exr"), bytes("ten.exr"));
     ASSERT_EQ(render({"--spp", "10", "--sample-range", "5:10", "--checkpoint", "half", "-o", "h.exr"}).status,
               0);
     EXPECT_THAT(run({"merge", "-o", "none.exr", "five", "half"}).err, HasSubstr("has samples 5 to 9"));
-    // To the end of its own range unless --spp says otherwise.
+    // Without --spp, the render continues to the end of the checkpoint's range.
     ASSERT_EQ(render({"--spp", "10", "--sample-range", "5:7", "--checkpoint", "part", "-o", "a.exr"}).status,
               0);
     ASSERT_EQ(render({"--resume", "part", "-o", "b.exr"}).status, 0);

@@ -1,4 +1,4 @@
-// What the program says where no Vulkan driver can be loaded, and how many threads it starts.
+// The program's messages if no Vulkan driver can be loaded, and the number of threads that it starts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

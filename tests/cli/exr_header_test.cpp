@@ -1,4 +1,4 @@
-// What the program says about a picture in its EXR files, and whether other programs accept it.
+// The metadata in EXR files, and whether other programs accept them.
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>

@@ -1,4 +1,4 @@
-// A device that fails on the way does not cost what had been rendered.
+// If the device fails during a render, the samples so far are kept.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class LostDevice : public testing::Test {
 TEST_F(LostDevice, LeavesAPictureAndACheckpointToGoOnFrom) {
     for (const char* integrator : {"path", "light"}) {
         ASSERT_EQ(render("", {"--integrator", integrator, "-o", "whole.pfm"}).status, 0);
-        // After a first look, whose light paths take more submissions.
+        // After the first look, which takes more submissions with the light tracer.
         const ProgramResult result =
             render(integrator == std::string("path") ? "DUOLUX_FAULT_LOST=5" : "DUOLUX_FAULT_LOST=7",
                    {"--integrator", integrator, "-o", "part.exr", "-o", "part.png", "--checkpoint", "a.part",

@@ -15,7 +15,7 @@ struct MalformedScene {
     bool onlyIfStrict = false;       ///< loads without --strict
 };
 
-/// A command line that cannot be meant. It may refer to good.obj, a scene without fault.
+/// An invalid command line. It may refer to good.obj, a valid scene.
 struct WrongUsage {
     const char* name;
     std::vector<std::string> arguments;

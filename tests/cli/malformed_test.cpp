@@ -1,5 +1,5 @@
-// Wrong input against the real executable: exit status, one line on standard error that names what is wrong,
-// and no file left behind.
+// Invalid input to the real executable: exit status, one line on standard error that names the problem, and
+// no files left behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -68,7 +68,7 @@ TEST_F(OpenGl, BatchesOfLightsAddUp) {
     EXPECT_LT(c.averageColour, 0.002);
 }
 
-// Emission comes once, not with each batch; and of two surfaces in one place one is drawn.
+// Emission is added once, not with each batch; of two coincident surfaces, one is drawn.
 TEST_F(OpenGl, BatchesAddNothingTwice) {
     std::string text = contentsOf(folder_ / "two_spheres.json");
     const std::string dark = "\"visible\": [0, 0, 0]";

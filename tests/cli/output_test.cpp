@@ -1,5 +1,5 @@
-// The files that commands write: what would go wrong is told before the work, and what goes wrong after it
-// costs no other file.
+// The files that commands write: foreseeable problems are reported before the work, and a file that cannot be
+// written afterwards does not affect the others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -11,7 +11,7 @@
 
 namespace duolux::test {
 
-/// Runs duolux with arguments in `folder`, and waits for it; sends it a signal on the way if asked to.
+/// Runs duolux with arguments in `folder` and waits for it, optionally sending it a signal.
 inline ProgramResult runDuolux(const std::filesystem::path& folder, std::vector<std::string> arguments,
                                std::optional<ProgramSignal> signal = std::nullopt) {
     return runProgram(DUOLUX_EXECUTABLE, folder, std::move(arguments), signal);

@@ -1,5 +1,5 @@
-// Standard streams that are closed, full or left by their reader, and signals: the picture is written all the
-// same, and the exit status is true.
+// Standard streams that are closed, full or without a reader, and signals: the image is still written, and
+// the exit status is correct.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 class Streams : public testing::Test {
   protected:
     void SetUp() override {
-        // Nothing emits: a warning is due.
+        // Nothing emits, which gives a warning.
         std::ofstream(folder_ / "q.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
     }
 

@@ -163,7 +163,7 @@ TEST_F(ViewCommand, ShadowlessHasFewBouncesUnlessItIsSaidHowMany) {
     EXPECT_EQ(nlohmann::json::parse(contentsOf(folder_.path() / "r.json"))["settings"]["bounces"], 4);
     EXPECT_THAT(render(room, {"--preset", "shadowless", "--bounces", "6"}).err,
                 testing::AllOf(Not(HasSubstr("using 4")), HasSubstr("the limit of 6 bounces")));
-    // A checkpoint of the default goes on by default.
+    // A checkpoint with the default number of bounces resumes with the default.
     ASSERT_EQ(render(room, {"--blend", "1,1", "--checkpoint", "c.part"}).status, 0);
     EXPECT_EQ(render(room, {"--blend", "1,1", "--resume", "c.part"}).status, 0);
     EXPECT_EQ(render(room, {"--blend", "1,1", "--resume", "c.part", "--bounces", "16"}).status, 3);

@@ -8,8 +8,8 @@
 #include "tests/shader/layout_words.h"
 #include "tests/support/device.h"
 
-// Structures in blocks: sentinels that the host writes into every word are read by name on the device through
-// the kind of block that the kernels have for it, and the other way round.
+// Structures in blocks: the host writes a sentinel into every word, and the device reads each by name through
+// the same kind of block as the kernels; and vice versa.
 
 namespace duolux::test {
 namespace {

@@ -29,7 +29,7 @@ TEST(NothingIsBelowTheHorizon) {
     EXPECT_GE(bsdfSample(bsdf, wo, randomVec2()).wi.z, 0.0);
 }
 
-// What a sample says of itself is what the functions say of its direction.
+// The pdf and the weight of a sample agree with bsdfPdf and bsdfEvaluate for its direction.
 TEST(SampleAgreesWithPdfAndEvaluation) {
     Bsdf bsdf = randomBsdf();
     vec3 wo = above(randomDirection());

@@ -11,7 +11,8 @@
 #include "tests/shader/harness/census.h"
 #include "tests/shader/oracles.h"
 
-// Camera rays, and how light paths see the camera, against the reference's rays in double precision.
+// Camera rays, and connections from light paths to the camera, against the reference's rays in double
+// precision.
 
 DUOLUX_GLSL_TYPE(duolux::shared::DeviceCamera, "DeviceCamera", "");
 
@@ -42,7 +43,7 @@ const ShaderLibrary& cameraLibrary() {
     return library;
 }
 
-/// Bounds that no camera here is far from.
+/// Bounds for which no camera in these tests is distant.
 constexpr Bounds kNear{{-100.0f, -100.0f, -100.0f}, {100.0f, 100.0f, 100.0f}};
 
 shared::DeviceCamera recordOf(const Camera& camera, std::uint32_t width = kWidth,

@@ -1,4 +1,4 @@
-// The camera of light paths is that of camera rays, wherever it is.
+// Connections to the camera are consistent with camera rays, for every position of the camera.
 #include "shaders/lib/camera.glsl"
 
 // Somewhere, in any position; a focal length and a shape of its own. Right, up and backwards are right-handed.
@@ -136,7 +136,7 @@ TEST(PointOnAnOrthographicRayIsSeenWhereTheRayCameFrom) {
     EXPECT_EQ(uvec2(seen.visible, seen.pixel), uvec2(1u, cell.y * camera.width + cell.x));
     EXPECT_EQ(seen.direction, -camera.forward);
     EXPECT_NEAR(seen.distance, distance + camera.startDepth, 2e-6 * (4.0 + length(camera.right) + length(camera.up)));
-    // However far away.
+    // Independent of the distance.
     EXPECT_EQ(seen.importance, 1.0 / camera.area);
 }
 

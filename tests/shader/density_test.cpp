@@ -11,7 +11,7 @@
 
 #include "tests/shader/oracles.h"
 
-// What judges the shader library finds what it should.
+// The statistical tests for the shader library detect wrong densities.
 
 namespace duolux::test {
 namespace {
@@ -82,7 +82,7 @@ TEST(ExpectOracles, FindsWhatIsBeyondTheBudget) {
     EXPECT_WITHIN_ORACLES("half", device, Budget{0, 0}, half, half, inputs);
     device[2] = std::nextafter(1.5f, 2.0f);
     EXPECT_WITHIN_ORACLES("half", device, Budget{1, 0}, half, half, inputs);
-    // Both oracles complain; the macros want one failure each.
+    // Both oracles report a failure; the macros require exactly one each.
     testing::TestPartResultArray failures;
     {
         const testing::ScopedFakeTestPartResultReporter reporter(&failures);

@@ -9,7 +9,7 @@
 #include "host/base/temporary_folder.h"
 #include "tests/support/run_program.h"
 
-// Which device the tests run on, and what happens without one.
+// The device on which tests run, and the behaviour without one.
 
 namespace duolux::test {
 namespace {
@@ -51,7 +51,7 @@ TEST(TestDevice, ListsItsTestsWithoutOne) {
     EXPECT_THAT(result.out, testing::HasSubstr("WarpGlsl."));
 }
 
-/// CTest would take the absence of a test for its success.
+/// CTest would count a missing test as passed.
 TEST(TestDevice, ATestThatDoesNotExistIsAFailure) {
     const TemporaryFolder folder;
     const ProgramResult result =

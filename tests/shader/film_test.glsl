@@ -1,4 +1,4 @@
-// Sums of the film are exact: no order, no grouping of samples changes a bit.
+// Sums of the film are exact: they do not depend on the order or grouping of samples.
 #include "shaders/lib/film.glsl"
 
 vec3 randomRadiance() { return vec3(randomScale(-40.0, 40.0), randomScale(-20.0, 20.0), randomFloat(0.0, 4.0)); }
@@ -42,7 +42,7 @@ TEST(NegativeIsWhatMakesNothing) {
     EXPECT_EQ(filmNegate(filmNegate(a)), a);
 }
 
-// One of the multiples beside, up to where floats are integers; an integer stays what it is.
+// The result is one of the two adjacent multiples; an integer stays unchanged.
 TEST(QuantisingRoundsToAMultipleBeside) {
     float radiance = randomFloat(0.0, 16777216.0) * randomScale(-24.0, 0.0);
     uvec2 quanta = filmQuantise(radiance, 1.0, randomFloat());

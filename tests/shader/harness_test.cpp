@@ -11,7 +11,7 @@
 #include "tests/shader/harness/shader_function.h"
 #include "tests/support/statistics.h"
 
-// The harness itself: what its expectations let pass, and what it says of those that fail.
+// The harness itself: which values its expectations accept, and what it reports for failures.
 
 namespace duolux::test {
 namespace {
@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// GLSL files that stand before the project's.
+/// GLSL files that override the project's.
 class Harness : public testing::Test {
   protected:
     Harness() { sourceRoots().insert(sourceRoots().begin(), folder_.path()); }
@@ -29,7 +29,7 @@ class Harness : public testing::Test {
 
     /// Runs a test of a file with this text.
     std::vector<GlslFailure> run(const std::string& text, std::size_t test = 0) {
-        // Kernels are kept by the file's name.
+        // Kernels are cached by file name.
         const std::string name = "harness" + std::to_string(std::hash<std::string>()(text)) + "_test.glsl";
         writeFile(folder_ / name, text);
         return runGlslTest(parseGlslFile(name, text), test);
@@ -274,7 +274,7 @@ TEST_F(Harness, CallsTakeArraysAndSingleValues) {
     EXPECT_THROW(library.call<float>("nowhere", v), CompileError);
 }
 
-/// More invocations than one dispatch takes.
+/// More invocations than fit into one dispatch.
 TEST_F(Harness, CallsAreSplitWhereTheyAreLarge) {
     std::vector<std::uint32_t> inputs((1u << 20) + 77u);
     for (std::uint32_t i = 0; i < inputs.size(); ++i)

@@ -5,8 +5,8 @@
 #include "tests/shader/test_meshes.h"
 #include "tests/shader/traced_scene.h"
 
-// Closed meshes through the tree: no ray gets out, neither one aimed at edges and corners nor one that leaves
-// a surface by the ray offset. Rays are made on the device, 64 an invocation.
+// Closed meshes traced through the tree: no ray escapes, neither one aimed at edges and corners nor one that
+// starts with the ray offset on a surface. Each invocation generates 64 rays on the device.
 
 namespace duolux::test {
 

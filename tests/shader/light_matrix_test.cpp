@@ -10,8 +10,8 @@
 #include "tests/shader/mirror_types.h"
 #include "tests/support/closed_form.h"
 
-// What the presets' matrices do to light (eqs. 12-23), closed forms of a uniform enclosure, and both oracles.
-// The algebra itself: light_matrix_test.glsl.
+// The presets' matrices (eqs. 12-23), closed forms of a uniform enclosure, and both oracles.
+// light_matrix_test.glsl tests the algebra itself.
 
 namespace duolux::test {
 namespace {
@@ -28,7 +28,7 @@ Matrix deviceMatrix(const LightMatrix& m) {
     return {m.m00, m.m01, m.m10, m.m11};
 }
 
-/// What a preset does to light (i, v), where f is what a surface reflects and g what it passes on.
+/// The effect of a preset on the light (i, v), where f is reflected and g is transmitted.
 using Scatter = glm::vec2 (*)(float i, float f, float g);
 
 /// L_out = F L with F = O f + T g, for all of these; powers of two and 3, so that every number is exact.
@@ -174,14 +174,14 @@ void expectRadiance(const std::vector<Light>& actual, const std::vector<ChannelL
     EXPECT_LE(worst, relative);
 }
 
-/// Shooting: every event multiplies the light from the left, L <- E + rho O L.
+/// Light tracer: every event multiplies the radiance from the left, L <- E + rho O L.
 constexpr const char* kShoot =
     "LightMatrix m = lightScale(x0, x1); result = x2;"
     "for (uint i = 0u; i < x3; i++) {"
     "    Light s = lightApply(m, result);"
     "    result = Light(x2.invisible + s.invisible, x2.visible + s.visible);"
     "}";
-/// Gathering: W <- W rho O by `multiply`, from the identity, collects W E.
+/// Path tracer: W <- W rho O by `multiply`, starting from the identity, and adds W E.
 std::string gatherBy(const std::string& multiply) {
     return "LightMatrix m = lightScale(x0, x1); LightMatrix w = lightIdentity(); result = x2;"
            "for (uint i = 0u; i < x3; i++) {"

@@ -1,4 +1,4 @@
-// The algebra of vector-valued light: what matrices per colour channel have to obey, whatever the formula.
+// The algebra of vector-valued radiance: laws that matrices per colour channel obey.
 #include "shaders/lib/light_matrix.glsl"
 
 // Entries are small integers, of either sign: products of four matrices are exact, and so are the comparisons.
@@ -89,7 +89,7 @@ TEST(ApplyingIsLinear) {
     EXPECT_EQ(off(lightApply(sum(a, b), l), sum(lightApply(a, l), lightApply(b, l))), 0.0);
 }
 
-// What raises visible light to invisible light, and what lets only the latter pass: their order decides.
+// One matrix turns visible light into invisible light, the other transmits only invisible light: they do not commute.
 TEST_N(OrderMatters, 1) {
     LightMatrix raise = LightMatrix(vec3(0.0), vec3(1.0), vec3(0.0), vec3(0.0));
     LightMatrix keep = LightMatrix(vec3(1.0), vec3(0.0), vec3(0.0), vec3(0.0));
@@ -133,7 +133,7 @@ TEST(FirstColumnIsAllWhereTheSecondIsZero) {
     LightMatrix b = randomMatrix();
     LightMatrix column = LightMatrix(b.m00, vec3(0.0), b.m10, vec3(0.0));
     EXPECT_EQ(off(lightMultiplyFirstColumn(a, column), lightMultiply(a, column)), 0.0);
-    // Whatever the second column of b, it is not looked at.
+    // The second column of b is ignored.
     EXPECT_EQ(off(lightMultiplyFirstColumn(a, b), lightMultiply(a, column)), 0.0);
 }
 

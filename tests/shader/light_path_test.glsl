@@ -1,4 +1,4 @@
-// What a lane that traces light paths reports.
+// The results of a lane of the light tracer.
 #include "shaders/lib/light_path.glsl"
 
 uvec4 fetchNormalTexel(uint index) { return uvec4(index); }

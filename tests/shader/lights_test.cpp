@@ -13,7 +13,8 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
-// Points on emitters: how often each is picked, where on it, and what a particle that starts there carries.
+// Points on emitters: how often each emitter is chosen, the distribution of points on it, and the flux of a
+// particle.
 
 namespace duolux::test {
 namespace {

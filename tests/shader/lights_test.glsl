@@ -19,9 +19,9 @@ TEST_N(BalanceHeuristicAtItsLimits, 1) {
     float infinity = uintBitsToFloat(0x7f800000u);
     EXPECT_EQ(vec4(balanceHeuristic(1.0, 1.0), balanceHeuristic(3.0, 1.0), balanceHeuristic(1.0, 3.0),
                    balanceHeuristic(7.0, 0.0)), vec4(0.5, 0.75, 0.25, 1.0));
-    // What cannot come has no weight, even if nothing can.
+    // A strategy with zero density has no weight, even if both densities are zero.
     EXPECT_EQ(vec3(balanceHeuristic(0.0, 2.0), balanceHeuristic(0.0, 0.0), balanceHeuristic(0.0, infinity)), vec3(0.0));
-    // A direction that the other strategy takes for sure, or all but for sure.
+    // A direction for which the other strategy has an infinite or very large density.
     EXPECT_EQ(vec3(balanceHeuristic(1.0, infinity), balanceHeuristic(1e30, 1.0), balanceHeuristic(1e-30, 1e30)),
               vec3(0.0, 1.0, 0.0));
 }

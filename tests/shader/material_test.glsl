@@ -1,4 +1,4 @@
-// What a material emits and scatters, by sides.
+// Emission and scattering of a material on each side.
 #include "shaders/lib/material.glsl"
 
 // Word k of texel i is 16 i + k + 1, as a float: no two fields hold the same.
@@ -21,7 +21,7 @@ TEST_N(EmissionIsThatOfTheSideWhoseFlagIsSet, 8) {
     EXPECT_EQ(toBack.visible, back ? vec3(4.0, 5.0, 6.0) : vec3(0.0));
 }
 
-// The front scatters always, the back where f_opaque is two-sided; emission has nothing to do with it.
+// The front always scatters, the back only if f_opaque is two-sided; emission has no influence.
 TEST_N(BackScattersWhereTheMaterialIsTwoSided, 8) {
     uint flags = testIndex();
     EXPECT_TRUE(materialScatters(emitter(flags), true));

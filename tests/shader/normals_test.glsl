@@ -1,8 +1,8 @@
 // Shading normals. Signed 16-bit numbers are written as their value times 1 / 32767.
 #include "shaders/lib/normals.glsl"
 
-uvec4 texel;       // what there is to fetch
-uint fetchedIndex;  // and where it was asked for
+uvec4 texel;       // the texel to fetch
+uint fetchedIndex;  // the index with which it was fetched
 
 uvec4 fetchNormalTexel(uint index) {
     fetchedIndex = index;

@@ -72,7 +72,7 @@ std::string describeArgument(const T& argument) {
     }
 }
 
-/// What to say besides where the library was changed after the oracles were built.
+/// Additional text for the report if the library was changed after the oracles were built.
 inline std::string describeStaleMirror() {
     const auto built = std::filesystem::last_write_time("/proc/self/exe");
     for (const auto& entry : std::filesystem::directory_iterator(projectRoot() / "shaders/lib")) {

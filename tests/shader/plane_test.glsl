@@ -24,7 +24,7 @@ TEST(DistanceLeadsToThePlane) {
     EXPECT_NEAR(dot(origin + t * d - point, normal), 0.0, 4e-6 + 4e-7 * abs(t));
 }
 
-// To the bit: it is what keeps two windings of one face at one distance.
+// Bitwise identical, so that both windings of a face have the same distance.
 TEST(DistanceDoesNotDependOnTheOrientation) {
     Plane plane = planeThrough(randomDirection(), randomVec3(-9.0, 9.0));
     vec3 origin = randomVec3(-4.0, 4.0);
@@ -33,8 +33,8 @@ TEST(DistanceDoesNotDependOnTheOrientation) {
               floatBitsToUint(planeDistance(plane, origin, d)));
 }
 
-// In all sizes, and far from the foot of the origin: what is left is a part of the bound, which is a few roundings of the
-// point's coordinates, and planeDistance finds as much.
+// In all sizes, and far from the foot of the origin: what is left is a part of the bound, which is a few roundings of
+// the point's coordinates, and planeDistance finds as much.
 TEST(PointsPutOntoThePlaneAreWithinTheirError) {
     float size = randomScale(-20.0, 20.0);
     vec3 normal = randomDirection();

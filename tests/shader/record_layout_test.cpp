@@ -7,8 +7,8 @@
 #include "tests/shader/layout_words.h"
 #include "tests/shader/mirror_types.h"
 
-// Records in texels: sentinels that the host writes into every field come out of the library's fetch
-// functions in the field of the same meaning. Several records, so that their stride counts.
+// Records in texels: the host writes a sentinel into every field, and the library's fetch functions must
+// return it in the corresponding field. There are several records to test the stride.
 
 namespace duolux::test {
 namespace {

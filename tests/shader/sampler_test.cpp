@@ -12,7 +12,8 @@
 #include "tests/shader/published_sequences.h"
 #include "tests/shader/uniformity.h"
 
-// The samples of a path: whether what differs in pixel, sample, dimension, seed, or use is independent.
+// The random numbers of a path: numbers with different pixels, samples, dimensions, seeds or uses are
+// independent.
 
 namespace duolux::test {
 namespace {

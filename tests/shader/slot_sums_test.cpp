@@ -5,8 +5,8 @@
 
 #include "tests/shader/mirror_types.h"
 
-// What lanes add up, compared with both oracles. What it has to be: slot_sums_test.glsl,
-// light_path_test.glsl.
+// The sums of lanes against both oracles. slot_sums_test.glsl and light_path_test.glsl test the expected
+// values.
 
 DUOLUX_GLSL_TYPE(duolux::mirror::single::Array<6>, "uint[6]", "");
 DUOLUX_GLSL_TYPE(duolux::mirror::single::light_path::LaneSums, "LaneSums", "");

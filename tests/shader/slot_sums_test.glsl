@@ -1,4 +1,4 @@
-// What a sample gathers, and what a lane adds up over samples.
+// The radiance that a sample gathers, and the sums of a lane over samples.
 #include "shaders/lib/slot_sums.glsl"
 
 vec3 randomIntegers() { return floor(randomVec3(0.0, 16.0)); }

@@ -12,7 +12,7 @@
 #include "tests/shader/published_sequences.h"
 #include "tests/shader/uniformity.h"
 
-// Sobol points: as published, nets whatever the key, and independent of one another for different keys.
+// Sobol points: equal to the published ones, nets for every key, and independent for different keys.
 
 namespace duolux::test {
 namespace {

@@ -10,8 +10,8 @@
 #include "tests/shader/mirror_types.h"
 #include "tests/support/scene_builder.h"
 
-// What the constants leave out: only what no surface of the scene does. And the materials' records, because
-// they are fetched the same way.
+// Specialisation constants remove only code that no surface of the scene needs. Also tests the materials'
+// records, because they are fetched in the same way.
 
 namespace duolux::test {
 namespace {

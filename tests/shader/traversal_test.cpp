@@ -8,8 +8,8 @@
 #include "tests/shader/test_meshes.h"
 #include "tests/shader/traced_scene.h"
 
-// Whole traversals against brute force: in double precision on the host, which says what is hit for certain,
-// and on the device by the same test of a triangle, which says it to the bit.
+// Whole traversals against brute force: in double precision on the host, which determines the certain hits,
+// and on the device with the same triangle test, which must be bitwise identical.
 
 namespace duolux::test {
 namespace {
@@ -104,7 +104,7 @@ TEST_P(TraversalAtScale, NearestHitsMatchBruteForce) {
     const TracedScene scene(soup(1500, scale));
     const std::vector<TestRay> rays = randomRays(4000, scale);
     const int hits = compareNearest(scene, rays, scene.trace(rays));
-    EXPECT_GT(hits, 1000);  // the comparison must have had something to compare
+    EXPECT_GT(hits, 1000);  // the comparison must not be empty
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, TraversalAtScale,

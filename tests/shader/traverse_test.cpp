@@ -12,7 +12,7 @@
 #include "tests/shader/traced_scene.h"
 #include "tests/support/device.h"
 
-// Trees made by hand, what is not a number, and both oracles.
+// Hand-made trees, NaN, and both oracles.
 
 namespace duolux::test {
 namespace {

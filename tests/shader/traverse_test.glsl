@@ -1,4 +1,4 @@
-// The parts of the traversal that need no tree: see traverse_test.cpp for nodes, traversal_test.cpp for the whole.
+// The parts of the traversal that need no tree. traverse_test.cpp tests nodes, traversal_test.cpp whole traversals.
 #include "shaders/lib/traverse.glsl"
 
 // Pairs of triangles as a test puts them here, 8 of them.
@@ -257,7 +257,7 @@ TEST(AReverseRayMeetsCoincidentSurfacesInReverse) {
         }
     }
     for (uint i = 0u; i < 6u; i++) EXPECT_EQ(met[i], met[11u - i]);
-    // Nothing is met twice.
+    // No surface is crossed twice.
     uint all = 0u;
     for (uint i = 0u; i < 6u; i++) all |= 1u << (met[i] / 2u);
     EXPECT_EQ(all, 63u);

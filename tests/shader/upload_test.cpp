@@ -11,7 +11,7 @@
 #include "tests/shader/inputs.h"
 #include "tests/support/device.h"
 
-// What the host writes to a buffer is what a kernel reads from it.
+// A kernel reads the same values from a buffer that the host has written to it.
 
 namespace duolux::test {
 namespace {

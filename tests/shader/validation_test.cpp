@@ -11,7 +11,7 @@
 namespace duolux::test {
 namespace {
 
-/// That other tests see no message means something only if a hazard gives one.
+/// A hazard must give a validation message; otherwise the absence of messages in other tests shows nothing.
 TEST(Validation, ReportsASynchronizationHazard) {
     Device device(deviceSelector(), Validation::kOn);
     const std::vector<std::uint32_t> zeros(64);

@@ -9,8 +9,7 @@
 #include "tests/shader/test_meshes.h"
 #include "tests/shader/traced_scene.h"
 
-// Visits of random nodes by random rays, against what the layout in bvh_layout.h says of them, in double
-// precision.
+// Visits of random nodes by random rays, against a double-precision evaluation of the layout in bvh_layout.h.
 
 namespace duolux::test {
 

@@ -105,7 +105,7 @@ TEST(NothingLeaksWhereEdgeFunctionsVanish) {
     EXPECT_LT(crossingsOf(vec3(-0.25, -3.0, 0.0), vec3(0.0, 1.0, 0.0), true).nearest, 1e30);
 }
 
-// What goes in comes out, at silhouettes, too; where every surface is met once, as often.
+// A ray that enters a closed surface also leaves it, even at silhouettes; with `once`, it does both equally often.
 TEST_N(RaysFromOutsideEnterIffTheyLeave, 16384) {
     makeMesh(true, randomScale(-10.0, 20.0), vec3(0.0));
     uint unmatched = 0u;

@@ -131,7 +131,7 @@ TEST_F(FileTest, PermissionsOfTheOldFileStay) {
     for (const mode_t mode : {0600u, 0664u, 0200u}) {
         ASSERT_EQ(::chmod((folder_ / "new").c_str(), mode), 0);
         writeFileAtomically(folder_ / "new", [&](FileWriter& file) {
-            EXPECT_EQ(modeOf(temporaryIn(folder_, folder_ / "new")), 0600u);  // nobody reads it meanwhile
+            EXPECT_EQ(modeOf(temporaryIn(folder_, folder_ / "new")), 0600u);  // not readable by other users
             file.write("y");
         });
         EXPECT_EQ(modeOf(folder_ / "new"), mode);
@@ -171,7 +171,7 @@ TEST_F(FileTest, TheLongestNameIsWritten) {
 
 TEST_F(FileTest, AFileOfAFolderWithoutPermissionIsWrittenInPlace) {
     write(folder_ / "f", "a longer old file");
-    // To root all is permitted.
+    // Root has all permissions.
     const int status = asAnotherUser([&] {
         ::chmod((folder_ / "f").c_str(), 0666);
         ::chmod(folder_.c_str(), 0555);

@@ -161,7 +161,7 @@ TEST(SahCost, OfSpotIsWithin5PercentOfAFullSweep) {
     expectWithin5Percent(refsOf(loadScene(DUOLUX_ASSETS "/spot/spot.obj").geometry));
 }
 
-/// A sweep cannot part the walls, as large as the room, from what is in it.
+/// A sweep cannot separate the walls, which are as large as the room, from the room's contents.
 TEST(SahCost, OfAModelInARoomIsLowerThanOfAFullSweep) {
     const Ratios ratios = ratiosToFullSweep(refsOf(loadScene(DUOLUX_ASSETS "/spot/spot.json").geometry));
     EXPECT_LE(ratios.binary, 0.9);
@@ -191,7 +191,7 @@ TEST(SahCost, OfTrianglesOfVeryDifferentSizesIsWithin5PercentOfAFullSweep) {
     }));
 }
 
-/// A test of one triangle takes as long as that of a pair: the device has nothing else.
+/// The device only tests pairs, so testing a single triangle costs as much as testing a pair.
 TEST(SahCost, OfPairsIsLowerThanOfTriangles) {
     const TemporaryFolder folder;
     writeTwoSpheres(folder.path(), 20'000);

@@ -105,7 +105,7 @@ TEST(WideBvh, SahIsBetterThanMedianSplits) {
               area(buildBinaryBvh(copy, SplitMethod::kMedian)));
 }
 
-/// The audit finds what a broken builder would do.
+/// The audit detects the errors of a broken builder.
 class Audit : public testing::Test {
   protected:
     Geometry geometry_ = randomTriangles(200, 5.0f);

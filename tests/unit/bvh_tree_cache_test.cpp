@@ -87,12 +87,12 @@ TEST_F(TreeCacheTest, KeepsWhatTheBuilderBuilds) {
     ASSERT_EQ(files().size(), 1u);
     EXPECT_EQ(fs::file_size(files()[0]), treeFileBytes(built_));
     expectSame(get(), built_);
-    // It is the file that is read.
+    // The tree is read from the file.
     WideBvh other = built_;
     other.nodes[0].upper[0][0] ^= 1;
     keepInstead(other, files()[0]);
     expectSame(get(), other);
-    // Nobody else sees it.
+    // Other users cannot read it.
     EXPECT_EQ(fs::status(cache_).permissions(), fs::perms::owner_all);
 }
 
@@ -228,7 +228,7 @@ TEST_F(TreeCacheTest, DoesWithoutAFolderThatCannotBeUsed) {
 TEST_F(TreeCacheTest, DoesWithoutAFolderThatIsReadOnly) {
     fs::create_directories(cache_);
     fs::permissions(cache_, fs::perms::owner_read | fs::perms::owner_exec);
-    // To root nothing is read-only.
+    // Nothing is read-only for root.
     const pid_t child = ::fork();
     if (child == 0) {
         if (::geteuid() == 0 && (::chmod(folder_.path().c_str(), 0755) != 0 || ::seteuid(65534) != 0))
@@ -339,7 +339,8 @@ TEST_F(TreeCacheTest, KeepsNothingLargerThanAllMayBe) {
 }
 
 TEST_F(TreeCacheTest, IsSharedByProcesses) {
-    // With room for one of the two trees: each writes, reads and deletes under the other's hands.
+    // With room for only one of the two trees: each process writes, reads and deletes at the same time as the
+    // others.
     const Geometry other = sphere(7);
     const std::vector<std::uint32_t> all = allTriangles(other);
     const WideBvh otherBuilt = buildWideBvh(other, all);
@@ -363,7 +364,7 @@ TEST_F(TreeCacheTest, IsSharedByProcesses) {
         EXPECT_EQ(file.extension(), ".tree");
 }
 
-/// Where the user's trees are.
+/// The folder of the user's trees.
 class UserCache : public TreeCacheTest {
   protected:
     UserCache() {

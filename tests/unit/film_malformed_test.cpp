@@ -1,4 +1,4 @@
-// Whatever the bytes of an image file, reading it either works or throws InputError with one line that names
+// For all contents of an image file, reading either succeeds or throws InputError with one line that names
 // the file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

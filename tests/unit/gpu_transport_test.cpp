@@ -98,8 +98,8 @@ TEST(Transport, SecondColumn) {
     EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transmittance, shared::kTransmittanceGeneral);
 }
 
-/// Importance that alternates between the components: 01 and 10 feed each other for ever, 10 alone ends after
-/// one.
+/// Importance that alternates between the components: with 01 and 10 the series is infinite, with 10 alone it
+/// ends after one event.
 TEST(Transport, EffectiveBouncesFollowTheComponents) {
     Reflectance reflectance;
     reflectance.opaque.m10 = glm::vec3(1.0f);

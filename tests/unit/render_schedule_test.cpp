@@ -102,7 +102,7 @@ TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
     }
     expectEachOnce(counts, 600, 1);
     EXPECT_FALSE(schedule.next(0.0, 128, Wanted::kFirstPass));
-    // What is to be traced again is, whatever its pass: its slots must not be left with gaps.
+    // Retries are handed out in every pass, because their slots must not keep gaps.
     for (const Wanted wanted : {Wanted::kFirstPass, Wanted::kRetries}) {
         EXPECT_TRUE(schedule.settled());
         schedule.retry({0, 10, 3, 2});
@@ -111,7 +111,7 @@ TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
         const WorkRange rest = *schedule.next(0.0, 128, wanted);
         EXPECT_EQ(rest.firstSample, 4u);
         EXPECT_FALSE(schedule.next(0.0, 128, wanted));
-        // What is under way leaves a gap until it is back, and longer if it is cut short once more.
+        // A range in flight leaves a gap until it is traced, and longer if it is ended early again.
         schedule.traced({0, 10, 3, 1, true});
         EXPECT_FALSE(schedule.settled());
         schedule.retry(rest);
@@ -157,7 +157,7 @@ TEST(Schedule, GoesOnFromAnyState) {
     for (const auto& [work, times] : some)
         EXPECT_TRUE(work.second < kFirst + 9 && times == 1);
 
-    // When time is up slots without a sample get their first, and no more.
+    // When the time is up, slots without a sample get one sample only.
     Schedule schedule(300, kFirst, kEnd, 100, 16);
     schedule.resume(uneven);
     Counts counts;

@@ -30,7 +30,7 @@ TEST(Energy, OnlyScatteringThatRecursMayGrow) {
 }
 
 TEST(Energy, OffDiagonalEntriesMakeACycle) {
-    // [[0, 4], [1, 0]] has the eigenvalues +-2: what one scattering event hides the next shows.
+    // [[0, 4], [1, 0]] has the eigenvalues +-2: scattering events alternate between the components.
     Reflectance reflectance;
     reflectance.opaque.m01 = glm::vec3(4.0f);
     reflectance.opaque.m10 = glm::vec3(1.0f);

@@ -1,4 +1,4 @@
-// What other programs write, wrong or not, and load.
+// Files that other programs write and load, even if they are incorrect.
 #include <fmt/format.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// Time in proportion to what a scene holds.
+// Loading time is proportional to the size of a scene.
 #include <fmt/format.h>
 
 #include <ctime>

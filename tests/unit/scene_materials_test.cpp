@@ -1,4 +1,4 @@
-// Which materials the faces of OBJ files get.
+// The materials of faces in OBJ files.
 #include <fmt/format.h>
 
 #include <ctime>

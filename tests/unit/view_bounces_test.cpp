@@ -30,7 +30,7 @@ TEST_F(ViewBounces, AreFewWhereLightMayGrowAndNothingSaysHowMany) {
         EXPECT_EQ(scene.render.bounces, 4u);
         EXPECT_THAT(scene.warnings, Contains(HasSubstr("is not specified: using 4")));
     }
-    // What is said is kept, without a word.
+    // A specified number of bounces is kept without a warning.
     SceneChoices choices = withReflectance(1, 1);
     choices.bounces = 16;
     for (const Scene& scene : {with(shadowless + R"(, "render": {"bounces": 16})"), with("", choices)}) {

@@ -193,7 +193,7 @@ TEST_F(ViewCameraFiles, AnyPartOfAJsonCameraMayBeMissing) {
     EXPECT_EQ(defaults.up, glm::vec3(0, 1, 0));
     EXPECT_EQ(defaults.vfov, 40.0f);
 
-    // What the caller says goes first, each part for itself.
+    // Each part that the caller specifies takes precedence.
     CameraChoice choice;
     choice.target = {0, 2, 0};
     const Camera mixed = cameraOf(R"("position": [0, 1, 7], "target": [0, 1, 0], "vfov": 50)", choice);

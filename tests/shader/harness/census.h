@@ -10,7 +10,7 @@
 
 namespace duolux::test {
 
-/// Numbers that a value consists of. Overload it for structures, in their namespace, in terms of these.
+/// The numbers in a value. For structures, overload it in their namespace in terms of these overloads.
 template <typename T>
 requires std::is_arithmetic_v<T> std::vector<double> numbers(T x) {
     return {static_cast<double>(x)};
@@ -32,8 +32,8 @@ requires(sizeof...(Parts) > 1) std::vector<double> numbers(const Parts&... parts
     return out;
 }
 
-/// Compares what many invocations gave, and says it once: how many are off, the first, the worst, and how far
-/// all of them are. The test fails at `where` if any is, or if nothing was compared.
+/// Compares the results of many invocations and reports once: how many differ, the first, the worst, and the
+/// distribution of the differences. The test fails at `where` if any result differs or nothing was compared.
 ///
 ///     Census census("uniformFloat");
 ///     for (std::size_t i = 0; i < words.size(); ++i)
@@ -46,7 +46,7 @@ class Census {
     Census(const Census&) = delete;
     Census& operator=(const Census&) = delete;
 
-    /// Every number within `allowed`; 0: the same value. Two that are not numbers are the same.
+    /// Requires every number to be within `allowed`; 0: equal values. Two NaNs are equal.
     template <typename T, typename U>
     void compare(std::size_t invocation, const T& actual, const U& expected, double allowed = 0.0) {
         const std::vector<double> a = numbers(actual);
@@ -61,9 +61,9 @@ class Census {
 
     std::size_t off() const { return off_; }
     std::size_t worstInvocation() const { return worst_.invocation; }
-    double worstRatio() const { return worst_.ratio; }  ///< of what is allowed; infinite where nothing is
+    double worstRatio() const { return worst_.ratio; }  ///< relative to `allowed`; infinite if that is 0
 
-    /// What to add to the report, such as the arguments of the worst invocation.
+    /// Adds text to the report, for example the arguments of the worst invocation.
     void note(std::string text) { note_ = std::move(text); }
 
   private:

@@ -15,7 +15,7 @@ namespace duolux::test {
 
 namespace {
 
-/// The compiler's report without its empty lines and with names as they are included.
+/// The compiler's report without empty lines, with file names as in #include.
 std::string readable(std::string report, const std::filesystem::path& scratch,
                      const std::vector<std::filesystem::path>& roots) {
     const auto replaceAll = [&](const std::string& from, const std::string& to) {
@@ -25,7 +25,7 @@ std::string readable(std::string report, const std::filesystem::path& scratch,
     replaceAll(scratch.string() + "/", "");
     for (const std::filesystem::path& root : roots)
         replaceAll(root.string() + "/", "");
-    // What follows from the errors says nothing.
+    // Later messages only follow from the first errors.
     std::istringstream lines(report);
     std::string out;
     for (std::string line; std::getline(lines, line);) {

@@ -10,24 +10,23 @@
 
 namespace duolux::test {
 
-/// Where `#include "NAME"` is looked for, in this order: NAME is relative to these folders. At first there
-/// are the project's root and, if that is another, the harness's; what is put before them takes the place of
-/// files of the same name.
+/// The folders in which `#include "NAME"` is searched, in this order. Initially the project's root and, if
+/// different, the harness's root; folders inserted before them override files of the same name.
 std::vector<std::filesystem::path>& sourceRoots();
 
 /// Root of the project whose shaders are tested.
 std::filesystem::path projectRoot();
 
-/// The text of a file that is named like an included one. Throws std::runtime_error if no root has it.
+/// The text of a file, named as in #include. Throws std::runtime_error if no root contains it.
 std::string readSource(std::string_view name);
 
-/// GLSL that does not compile. what() is the compiler's report by lines, "ERROR: FILE:LINE: ...".
+/// GLSL that does not compile. what() is the compiler's report, with lines "ERROR: FILE:LINE: ...".
 class CompileError : public std::runtime_error {
   public:
     explicit CompileError(const std::string& report) : std::runtime_error(report) {}
     struct Place {
         std::string file;
-        std::size_t line = 0;  ///< 0: the report names none
+        std::size_t line = 0;  ///< 0: the report gives none
     };
     /// Of the first error.
     Place place() const;
@@ -38,8 +37,8 @@ class CompileError : public std::runtime_error {
 std::vector<std::uint32_t> compileKernel(std::string_view glsl,
                                          const std::vector<std::filesystem::path>& roots = sourceRoots());
 
-/// First lines of every kernel: the version, the extensions that the harness needs, and, where coverage is
-/// measured, what instrumented libraries call.
+/// The first lines of every kernel: the version, the extensions that the harness needs and, if coverage is
+/// measured, the functions that instrumented libraries call.
 std::string kernelHeader();
 
 }  // namespace duolux::test

@@ -26,8 +26,8 @@ struct Insertion {
     std::string text;
 };
 
-/// Where the condition of the `?` at `question` begins: after the nearest thing to its left that binds less
-/// than an operator of a condition does.
+/// The start of the condition of the `?` at `question`: after the nearest token to its left with a lower
+/// precedence than the operators of a condition.
 std::size_t conditionBegin(std::string_view code, std::size_t question) {
     int depth = 0;
     std::size_t i = question;
@@ -59,7 +59,7 @@ class Instrumenter {
         functions();
         statements();
         ternaries();
-        // Of two that begin at one place the first found is the outer one; ends come before beginnings.
+        // Of two that begin at the same position, the first found is the outer one; ends precede beginnings.
         std::stable_sort(insertions_.begin(), insertions_.end(),
                          [](const Insertion& a, const Insertion& b) { return a.at < b.at; });
         std::string out;
@@ -107,12 +107,12 @@ class Instrumenter {
             }
             while (begin < finish && std::isspace(static_cast<unsigned char>(code_[begin])) != 0)
                 ++begin;
-            if (begin < finish) wrap(begin, finish);  // that of for (;;) is empty
+            if (begin < finish) wrap(begin, finish);  // the condition of for (;;) is empty
         }
     }
 
     void ternaries() {
-        // Outside of functions there are constants, which cannot note anything.
+        // Outside functions there are only constants, which cannot be instrumented.
         int depth = 0;
         for (std::size_t i = 0; i < code_.size(); ++i) {
             depth += code_[i] == '{' ? 1 : code_[i] == '}' ? -1 : 0;
@@ -127,7 +127,7 @@ class Instrumenter {
     std::vector<Insertion> insertions_;
 };
 
-/// Owns what has been measured, and writes the report when all tests are done.
+/// Owns the measurements and writes the report after all tests.
 class Coverage : public testing::Environment {
   public:
     Coverage(const std::filesystem::path& folder, std::filesystem::path report) : report_(std::move(report)) {
@@ -177,7 +177,7 @@ std::string coverageReport(const std::vector<CoveragePoint>& points,
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::tie(points[a].file, points[a].line) < std::tie(points[b].file, points[b].line);
     });
-    // Of a file that nothing has reached the table says enough.
+    // For a file that was never reached, the table is sufficient.
     std::set<std::string> reachedFiles;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (reached.at(2 * i) != 0 || reached.at(2 * i + 1) != 0) reachedFiles.insert(points[i].file);

@@ -1,4 +1,4 @@
-// What instrumented libraries call: two words for each point, see coverage.h.
+// The functions that instrumented libraries call: two words for each point, see coverage.h.
 #ifndef DUOLUX_TESTS_SHADER_HARNESS_COVERAGE_GLSL
 #define DUOLUX_TESTS_SHADER_HARNESS_COVERAGE_GLSL
 

@@ -16,16 +16,17 @@ struct CoveragePoint {
     bool isCondition;
 };
 
-/// Marks every function and every condition of a GLSL file (of if, while, for and ?:), so that a kernel notes
-/// what it reaches: coverFunction_(id), coverCondition_(id, condition). Lines stay what they are. Appends to
-/// `points`, whose index is the id.
+/// Instruments every function and every condition of a GLSL file (of if, while, for and ?:), so that a kernel
+/// records what it reaches: coverFunction_(id), coverCondition_(id, condition). Line numbers do not change.
+/// Appends to `points`, whose index is the id.
 std::string instrument(std::string_view file, std::string_view text, std::vector<CoveragePoint>& points);
 
-/// From now on kernels are compiled from instrumented copies of the *.glsl files in `folder` of the project;
-/// what they reach is written to the file `report` at the end of all tests.
+/// From now on, kernels are compiled from instrumented copies of the *.glsl files in `folder` of the project,
+/// and the coverage is written to the file `report` after all tests.
 void measureCoverage(const std::filesystem::path& folder, const std::filesystem::path& report);
 
-/// One or two for each point: whether a function was reached; whether a condition was ever false, ever true.
+/// One or two flags for each point: whether a function was reached; whether a condition was ever false, ever
+/// true.
 std::string coverageReport(const std::vector<CoveragePoint>& points,
                            const std::vector<std::uint32_t>& reached);
 

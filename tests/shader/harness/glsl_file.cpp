@@ -46,7 +46,7 @@ const std::regex& expectationPattern() {
     return pattern;
 }
 
-/// Where EXPECT_... or NOTE calls are. Two on a line have one place.
+/// The positions of EXPECT_... and NOTE calls. Two calls on one line have the same position.
 std::vector<GlslFile::Site> findSites(std::string_view file, const std::string& code,
                                       const std::regex& pattern) {
     std::vector<GlslFile::Site> sites;
@@ -63,7 +63,7 @@ std::vector<GlslFile::Site> findSites(std::string_view file, const std::string& 
     return sites;
 }
 
-/// Lines are all that tells expectations apart, so that those of other files would be taken for this one's.
+/// Only line numbers distinguish expectations, so those of included files would be mistaken for this file's.
 void refuseExpectationsInIncludes(const std::string& code, std::set<std::string>& seen) {
     static const std::regex kInclude("(?:^|\\n)\\s*#\\s*include\\s*\"([^\"]+)\"");
     for (const std::cmatch& m : allMatches(code, kInclude)) {
@@ -73,7 +73,7 @@ void refuseExpectationsInIncludes(const std::string& code, std::set<std::string>
         try {
             included = blankComments(readSource(name));
         } catch (const std::runtime_error&) {
-            continue;  // the compiler will say that it is not there
+            continue;  // the compiler reports the missing file
         }
         for (const std::cmatch& e : allMatches(included, expectationPattern())) {
             fail(name, lineAt(included, static_cast<std::size_t>(e.position())),

@@ -28,16 +28,15 @@ struct GlslFile {
     std::vector<Site> notes;
     std::vector<std::string> source;  ///< its lines
 
-    /// The expectation that a line belongs to, or nullptr.
+    /// The expectation to which a line belongs, or nullptr.
     const Site* siteAt(std::size_t line) const;
 };
 
-/// Finds the tests and the expectations of a file. Throws std::runtime_error, naming file and line, where the
-/// text cannot be understood: no test, a bracket left open, two expectations on a line, an expectation in a
-/// file that it includes.
+/// Finds the tests and the expectations of a file. Throws std::runtime_error with file and line if the text
+/// is invalid: no test, an unclosed bracket, two expectations on a line, an expectation in an included file.
 GlslFile parseGlslFile(std::string_view name, std::string_view text);
 
-/// The kernel of all its tests, chosen by the specialisation constant kSpecTest.
+/// The kernel with all tests of a file; the specialisation constant kSpecTest selects one.
 std::string kernelOf(const GlslFile& file);
 
 }  // namespace duolux::test

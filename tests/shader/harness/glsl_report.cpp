@@ -35,7 +35,7 @@ std::string formatValue(const std::uint32_t (&bits)[4], std::uint32_t type, std:
     return components > 1 ? "(" + out + ")" : out;
 }
 
-/// What the second value of an expectation is, and the unit of differences.
+/// The name of an expectation's second value, and the unit of differences.
 struct Words {
     std::string_view second = "expected", unit;
 };
@@ -95,7 +95,7 @@ std::vector<GlslFailure> readExpectations(const GlslFile& file, const GlslFile::
         evaluated += e.evaluated;
         if (e.failed == 0) continue;
         const GlslFile::Site* site = file.siteAt(line);
-        // Of a macro there is nothing but the line in which it is used.
+        // For a macro, only the line in which it is used is known.
         std::string text = site != nullptr ? site->text : "an expectation of an included file";
         if (site == nullptr && line > 0 && line <= file.source.size())
             text = collapseSpaces(file.source[line - 1]);

@@ -23,10 +23,10 @@ namespace duolux::test {
 
 namespace {
 
-/// A dispatch of more might run longer than a driver's watchdog allows.
+/// A larger dispatch could run longer than a driver's watchdog allows.
 constexpr std::uint32_t kInvocationsPerDispatch = 1u << 20;
 
-/// The kernels of files, each compiled once.
+/// The kernels of test files; each is compiled once.
 class Kernels {
   public:
     std::vector<std::uint32_t> of(const GlslFile& file) { return entry(file).get(); }
@@ -38,7 +38,7 @@ class Kernels {
     std::shared_future<Spirv> entry(const GlslFile& file) {
         std::shared_future<Spirv>& future = futures_[file.name];
         if (!future.valid()) {
-            // What sourceRoots() is now, and no more compilers at once than there are cores.
+            // Uses a copy of sourceRoots(), and at most one compiler per core.
             future =
                 std::async(std::launch::async, [glsl = kernelOf(file), roots = sourceRoots()] {
                     static std::counting_semaphore<> cores(std::max(1u, std::thread::hardware_concurrency()));
@@ -115,7 +115,7 @@ class GlslTest : public testing::Test {
     std::size_t index_;
 };
 
-/// Before the first test, kernels of all files of which a test was chosen begin to be compiled side by side.
+/// Before the first test, starts compiling the kernels of all files with selected tests in parallel.
 class CompileAhead : public testing::Environment {
   public:
     void add(const std::string& suite, const GlslFile& file) { files_[suite] = file; }

@@ -10,16 +10,15 @@
 
 namespace duolux::test {
 
-/// A kernel of the harness: bound is what is asked for and, where coverage is measured, what it is counted
-/// in.
+/// A kernel of the harness, with the given bindings and, if coverage is measured, the buffer of its counters.
 Kernel harnessKernel(std::string_view name, std::span<const std::uint32_t> spirv,
                      std::vector<Binding> bindings, std::span<const Specialization> constants,
                      std::uint32_t pushConstantBytes);
 
-/// Words that instrumented libraries write to, see coverage.h; 0: coverage is not measured.
+/// Number of words that instrumented libraries write, see coverage.h; 0: coverage is not measured.
 std::size_t& coverageWords();
 
-/// These words, as all kernels have left them; the buffer that held them is given up.
+/// Returns these words after all kernels, and releases their buffer.
 std::vector<std::uint32_t> takeCoverage();
 
 }  // namespace duolux::test

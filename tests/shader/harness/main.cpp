@@ -1,4 +1,5 @@
-// GoogleTest's main() for shader tests: GLSL test files beside those in C++, and options of its own.
+// GoogleTest's main() for shader tests: registers GLSL test files in addition to C++ tests, and has its own
+// options.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -39,14 +40,14 @@ int run(int argc, char** argv) {
         return std::string_view(argument) == "--help" || std::string_view(argument) == "-h";
     });
     if (help) app.allow_extras();
-    if (!help) testing::InitGoogleTest(&argc, argv);  // takes its own options away
+    if (!help) testing::InitGoogleTest(&argc, argv);  // removes its own options
     CLI11_PARSE(app, argc, argv);
     if (!device.empty()) setenv("DUOLUX_DEVICE", device.c_str(), 1);
     if (!sources.empty()) sourceRoots().insert(sourceRoots().begin(), std::filesystem::absolute(sources));
     registerGlslTests(DUOLUX_GLSL_TESTS);
     if (!coverage.empty()) measureCoverage(DUOLUX_GLSL_LIBRARY, coverage);
     const bool list = testing::GTEST_FLAG(list_tests);
-    // Without a device there is one failure to show, not one of every test.
+    // Without a device, report one failure instead of one for every test.
     if (!list) duolux::test::device();
     const int status = RUN_ALL_TESTS();
     if (!list && testing::UnitTest::GetInstance()->test_to_run_count() == 0) {

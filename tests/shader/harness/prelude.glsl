@@ -1,5 +1,5 @@
-// What every GLSL test file can use: TEST, the expectations, and random inputs. The harness puts it before the file, and
-// a main() that runs the chosen test after it.
+// The functions and macros for GLSL test files: TEST, the expectations, and random inputs. The harness inserts this
+// file before a test file, and appends a main() that runs the selected test.
 #ifndef DUOLUX_TESTS_SHADER_HARNESS_PRELUDE_GLSL
 #define DUOLUX_TESTS_SHADER_HARNESS_PRELUDE_GLSL
 
@@ -12,12 +12,12 @@ layout(binding = kBindingExpectations, scalar) buffer ExpectationsBlock { Expect
 layout(binding = kBindingInvocations, scalar) buffer InvocationsBlock { uint failedInvocations[]; };
 layout(push_constant, scalar) uniform DispatchBlock { TestDispatch testDispatch; };
 
-// A test runs once in each of 4096 invocations; TEST_N says how many. Each draws random inputs of its own.
+// A test runs in 4096 invocations, or in as many as TEST_N specifies. Each invocation draws its own random inputs.
 #define TEST(name) void test_##name()
 #define TEST_N(name, count) void test_##name()
 
-// Arguments: float, vec2 to vec4, and where they are compared for order uint to uvec4, too; EXPECT_EQ and EXPECT_NE also
-// take bool, int and their vectors. Both must have as many components, and every one counts.
+// Arguments: float, vec2 to vec4, and where they are compared for order uint to uvec4, too; EXPECT_EQ and EXPECT_NE
+// also take bool, int and their vectors. Both must have as many components, and every one counts.
 #define EXPECT_TRUE(condition) expectEqual_(__LINE__, value_(condition), value_(true))
 #define EXPECT_FALSE(condition) expectEqual_(__LINE__, value_(condition), value_(false))
 #define EXPECT_EQ(actual, expected) expectEqual_(__LINE__, value_(actual), value_(expected))
@@ -72,7 +72,7 @@ void note_(int line, IntValue_ a) { note_(line, uvec4(a.v), kValueInt, a.compone
 void note_(int line, UintValue_ a) { note_(line, a.v, kValueUint, a.components); }
 void note_(int line, FloatValue_ a) { note_(line, floatBitsToUint(a.v), kValueFloat, a.components); }
 
-// On the bits: what a driver makes of NaN in comparisons is its own affair.
+// Tests the bits, because the result of comparisons with NaN depends on the driver.
 bool isNotANumber_(float a) { return (floatBitsToUint(a) & 0x7fffffffu) > 0x7f800000u; }
 
 // The difference is not negative, or not a number.

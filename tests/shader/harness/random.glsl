@@ -1,6 +1,6 @@
-// Random inputs of tests. The generator is not one that a library under test would have: RXS-M-XS of O'Neill, "PCG: A
-// Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random Number Generation", 2014, seeded anew in
-// each invocation.
+// Random inputs of tests. The generator differs from those of the libraries under test: RXS-M-XS of O'Neill, "PCG: A
+// Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random Number Generation", 2014, seeded anew
+// in each invocation.
 #ifndef DUOLUX_TESTS_SHADER_HARNESS_RANDOM_GLSL
 #define DUOLUX_TESTS_SHADER_HARNESS_RANDOM_GLSL
 
@@ -29,7 +29,7 @@ vec3 randomVec3(float lower, float upper) {
     float y = randomFloat(lower, upper);
     return vec3(x, y, randomFloat(lower, upper));
 }
-// 2^lower to 2^upper, every binade as often as another.
+// 2^lower to 2^upper, every binade with equal frequency.
 float randomScale(float lower, float upper) { return exp2(randomFloat(lower, upper)); }
 vec3 randomDirection() {  // unit, uniform
     vec3 v = randomVec3(-1.0, 1.0);

@@ -1,4 +1,4 @@
-// What a GLSL test writes about its expectations, shared by C++ and GLSL (scalar block layout).
+// The results that a GLSL test writes, shared by C++ and GLSL (scalar block layout).
 #ifndef DUOLUX_TESTS_SHADER_HARNESS_REPORT_LAYOUT_H
 #define DUOLUX_TESTS_SHADER_HARNESS_REPORT_LAYOUT_H
 
@@ -12,8 +12,8 @@ DUOLUX_CONST uint kBindingInvocations = 98u;   // storage: a bit for each invoca
 DUOLUX_CONST uint kBindingCoverage = 99u;      // storage: see coverage.glsl
 DUOLUX_CONST uint kSpecTest = 1000u;           // index of the test within its file
 
-// How far failures are off, as a multiple of what is allowed (of 1 where nothing is): 1 to 2 times, 2 to 4
-// times, and so on; the last but one is open, the last counts those that are not a number.
+// Histogram of the failures' differences, relative to the allowed difference (or to 1 if that is 0): 1 to 2
+// times, 2 to 4 times, and so on; the last bin but one is open, and the last counts NaN.
 DUOLUX_CONST uint kCensusBins = 20u;
 DUOLUX_CONST uint kCensusOpen = 18u;
 DUOLUX_CONST uint kCensusNaN = 19u;
@@ -23,7 +23,8 @@ DUOLUX_CONST uint kValueInt = 1u;
 DUOLUX_CONST uint kValueUint = 2u;
 DUOLUX_CONST uint kValueFloat = 3u;
 
-// Runs of the same test: the first counts, the others note the values of the invocations that it found.
+// Runs of the same test: the first counts failures, the others record the values of the invocations it has
+// found.
 DUOLUX_CONST uint kPassCount = 0u;
 DUOLUX_CONST uint kPassFirst = 1u;
 DUOLUX_CONST uint kPassWorst = 2u;

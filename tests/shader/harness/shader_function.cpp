@@ -16,7 +16,7 @@ namespace duolux::test {
 
 namespace {
 
-/// So that no dispatch runs for long.
+/// Limits the duration of a dispatch.
 constexpr std::size_t kInvocationsPerDispatch = std::size_t{1} << 20;
 
 const std::vector<std::uint32_t>& compiled(const std::string& glsl) {

@@ -15,9 +15,9 @@
 
 namespace duolux::test {
 
-/// How a C++ type is called in GLSL; `fields`: of a structure that the kernel has to declare, else empty.
-/// Scalar block layout: members lie as in C++, as long as they are of 4 bytes or vectors of these. There is
-/// no bool in buffers: pass uint.
+/// The GLSL name of a C++ type; `fields`: the fields of a structure that the kernel must declare, otherwise
+/// empty. With scalar block layout, members of 4 bytes, or vectors of these, have the same offsets as in C++.
+/// Buffers have no bool: pass uint.
 template <typename T>
 struct GlslType;
 
@@ -54,9 +54,10 @@ namespace duolux::test {
 ///     std::vector<glm::vec3> w = warp.call<glm::vec3>("cosineHemisphere", us);  // us:
 ///     std::vector<glm::vec2>
 ///
-/// An argument is a std::vector, an element an invocation, or a single value for all. Where a name will not
-/// do (out parameters, a part of the result), evaluate() takes statements that use x0, x1, ... and set
-/// `result`. CompileError if they do not compile, MachineError if the device fails.
+/// An argument is a std::vector with one element for each invocation, or a single value for all. If a
+/// function name is not sufficient (out parameters, a part of the result), evaluate() takes statements that
+/// use x0, x1, ... and set `result`. Throws CompileError if they do not compile, MachineError if the device
+/// fails.
 class ShaderLibrary {
   public:
     /// `file`: as in #include; "" for none.
@@ -66,7 +67,7 @@ class ShaderLibrary {
             code_ += include(file);
     }
 
-    /// GLSL after the library: what kernels have to define for it.
+    /// Adds GLSL after the library: functions that the library requires from kernels.
     ShaderLibrary& define(std::string_view glsl) {
         code_ += std::string(glsl) + "\n";
         return *this;
@@ -129,7 +130,7 @@ class ShaderLibrary {
     static std::string include(std::string_view file) {
         return file.empty() ? "" : "#include \"" + std::string(file) + "\"\n";
     }
-    /// The common size of all arrays; those of size 1 serve all invocations.
+    /// The common size of all arrays; arrays of size 1 are used for all invocations.
     static std::size_t invocations(std::initializer_list<std::size_t> sizes);
     void run(std::string_view statements, const std::vector<Array>& arguments, const Array& result,
              std::span<std::byte> results) const;

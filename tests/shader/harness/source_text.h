@@ -6,7 +6,7 @@
 
 namespace duolux::test {
 
-/// GLSL with every character of a comment replaced by a space, so that offsets and lines stay what they are.
+/// Replaces every character of a comment by a space, so that offsets and lines do not change.
 std::string blankComments(std::string_view glsl);
 
 /// Offset of the bracket that closes the one at `open`, one of ( [ {; npos if there is none. Comments must
@@ -16,10 +16,10 @@ std::size_t closingBracket(std::string_view glsl, std::size_t open);
 /// Line of an offset, from 1.
 std::size_t lineAt(std::string_view text, std::size_t offset);
 
-/// Runs of white space as one space each, none at the ends.
+/// Replaces runs of white space by single spaces, and removes white space at the ends.
 std::string collapseSpaces(std::string_view text);
 
-/// Whether a character can be a part of an identifier or a number.
+/// Whether a character can be part of an identifier or a number.
 bool isWordCharacter(char c);
 
 /// "light_matrix" -> "LightMatrix".

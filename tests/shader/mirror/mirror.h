@@ -1,8 +1,8 @@
 #pragma once
 
 // The shader library as C++ through GLM, from the same source: duolux::mirror::single has its functions in
-// float, duolux::mirror::twice in double. The first says whether a device computes what C++ does, the second
-// how large the rounding errors of the library are. Neither says that it is right.
+// float, duolux::mirror::twice in double. The first shows whether a device computes the same as C++, the
+// second shows the rounding errors of the library. Neither shows that the library is correct.
 
 #include <array>
 #include <bit>
