@@ -8,25 +8,25 @@
 
 namespace duolux {
 
-/// Seconds that a run took.
+/// The duration of a run in seconds.
 struct BenchTimes {
     double wall = 0.0;
-    double device = 0.0;  ///< by the device's timestamps; 0: it was not asked, or has none
+    double device = 0.0;  ///< by the device's timestamps; 0: not measured, or no timestamps
 };
 
 /// Seconds of wall time.
 double secondsOf(const std::function<void()>& work);
 
-/// Whether a name contains one of `only`, or that is empty.
+/// Whether a name contains one of `only`, or `only` is empty.
 bool isChosen(const std::string& name, const std::vector<std::string>& only);
 
-/// Something that can be run again and again.
+/// A workload that can be run repeatedly.
 struct Benchmark {
-    std::string name;  ///< by parts, as in "cornell/rays/primary"
-    std::string unit;  ///< of `work` per second; "s": the time itself is what counts
+    std::string name;  ///< with parts, as in "cornell/rays/primary"
+    std::string unit;  ///< of `work` per second; "s": the time itself is the result
     double work = 1.0;
     std::function<BenchTimes()> run;
-    std::map<std::string, double> notes;  ///< what else there is to say, as "nodes_per_ray"
+    std::map<std::string, double> notes;  ///< further results, for example "nodes_per_ray"
 };
 
 /// Lowest, median and highest.
@@ -50,8 +50,8 @@ struct BenchResult {
     double seconds() const;
 };
 
-/// Runs each benchmark once without counting it, then all in turns, `repeats` times: what disturbs the
-/// machine for a while disturbs all alike. `onRun` is told what comes next.
+/// Runs each benchmark once as a warm-up, then all in turns, `repeats` times, so that a temporary disturbance
+/// of the machine affects all of them equally. `onRun` is called before each run.
 std::vector<BenchResult> runBenchmarks(const std::vector<Benchmark>& benchmarks, std::uint32_t repeats,
                                        const std::function<void(const std::string&)>& onRun);
 

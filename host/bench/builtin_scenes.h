@@ -11,14 +11,14 @@ std::vector<std::string> builtinSceneNames();
 
 bool isBuiltinScene(const std::string& name);
 
-/// Writes a scene that the program brings along to a folder, which is made if need be. Returns its JSON file.
-/// Throws MachineError if it cannot be written. Requires isBuiltinScene(name).
+/// Writes a built-in scene to a folder, which is created if it does not exist. Returns its JSON file. Throws
+/// MachineError if it cannot be written. Requires isBuiltinScene(name).
 std::filesystem::path writeBuiltinScene(const std::string& name, const std::filesystem::path& folder);
 
 /// Throws UsageError unless each is a built-in scene or a file, and no two have the same benchName.
 void checkBenchScenes(const std::vector<std::string>& scenes);
 
-/// What the names of a scene's benchmarks begin with: its own name, of a file the stem.
+/// The first part of the names of a scene's benchmarks: the scene's name, or the stem of a file.
 std::string benchName(const std::string& scene);
 
 /// The file of a scene; a built-in one is written to `folder`. Throws as writeBuiltinScene does.

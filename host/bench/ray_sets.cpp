@@ -19,7 +19,7 @@ using shared::TraceRay;
 
 constexpr float kInfinity = 1e30f;
 
-/// The same numbers everywhere, which the standard's distributions do not promise.
+/// Identical numbers on all platforms, which the standard's distributions do not guarantee.
 class Random {
   public:
     float uniform() { return std::ldexp(static_cast<float>(engine_() >> 8), -24); }
@@ -40,7 +40,7 @@ std::vector<TraceRay> primaryRays(const Camera& camera, std::uint32_t width, std
     return rays;
 }
 
-/// Where a ray has hit, moved off the surface by more than rounding, and the normal to that side.
+/// The point of a ray's hit, offset from the surface by more than rounding, and the normal on that side.
 struct Surface {
     glm::vec3 position, normal;
 };
@@ -63,7 +63,7 @@ glm::vec3 cosineDirection(const glm::vec3& normal, Random& random) {
     return glm::length(sum) > 1e-4f ? glm::normalize(sum) : normal;
 }
 
-/// Points on what emits, uniform by area.
+/// Points on emitters, uniform in area.
 class Emitters {
   public:
     explicit Emitters(const Scene& scene) : geometry_(scene.geometry) {
@@ -123,7 +123,7 @@ std::vector<RaySet> makeRaySets(const Device& device, const Scene& scene, const 
         const glm::vec3 toLight = emitters.point(random) - surface.position;
         const float distance = glm::length(toLight);
         if (!(distance > 0.0f) || glm::dot(toLight, surface.normal) <= 0.0f) continue;
-        // Not quite to the emitter, which must not hide itself.
+        // The ray ends just before the emitter, so that the emitter does not block itself.
         shadow.push_back({surface.position, 0.0f, toLight / distance, distance * 0.9999f});
     }
     std::vector<RaySet> sets{{"primary", shared::kTraceNearest, primary}};

@@ -11,7 +11,7 @@
 
 namespace duolux {
 
-/// Rays of one kind, always the same for a scene.
+/// Rays of one kind; deterministic for a scene.
 struct RaySet {
     std::string name;
     std::uint32_t mode;  ///< shared::kTrace...
@@ -21,11 +21,11 @@ struct RaySet {
 /// Of the sets of a scene in which something emits and something is hit.
 inline constexpr const char* kRaySetNames[] = {"primary", "diffuse", "shadow", "crossings"};
 
-/// The rays that a path tracer of this scene asks for first, of a picture of width x height pixels:
+/// The first rays of a path tracer for an image of width x height pixels of this scene:
 /// `primary`: from the camera, in the order in which pixels are rendered (coherent);
-/// `diffuse`: from where these hit, by the cosine (incoherent);
-/// `shadow`: from there to a point of an emitter, by area (only where something emits);
-/// `crossings`: the primary ones, to be followed through all surfaces.
+/// `diffuse`: from the hits of these rays, cosine-distributed (incoherent);
+/// `shadow`: from the same hits to points on emitters, uniform in area (only if something emits);
+/// `crossings`: the primary rays, followed through all surfaces.
 std::vector<RaySet> makeRaySets(const Device& device, const Scene& scene, const DeviceScene& deviceScene,
                                 std::uint32_t width, std::uint32_t height);
 

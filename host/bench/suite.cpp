@@ -41,7 +41,7 @@ std::string rayBenchmark(const std::string& set) {
     return "rays/" + set;
 }
 
-/// How often to do what takes so many seconds, so that what a run costs besides does not count.
+/// The number of repetitions of a task with this duration, so that the overhead of a run is negligible.
 std::uint32_t passesOf(double seconds) {
     constexpr double kSecondsPerRun = 0.05;
     return static_cast<std::uint32_t>(std::clamp(std::ceil(kSecondsPerRun / seconds), 1.0, 1000.0));
@@ -88,7 +88,7 @@ struct SceneSuite::State {
     void addStart();
 };
 
-/// What the traversal does for the rays of a set: sums of 32 bits are those of a part of them.
+/// Counts the traversal's steps for the rays of a set, in parts, because sums have 32 bits.
 std::map<std::string, double> SceneSuite::State::countTraversal(const RaySet& set) const {
     if (deviceScene.tuning.layout == Layout::kRayQuery) return {};
     constexpr std::size_t kPart = std::size_t{1} << 20;
@@ -123,7 +123,7 @@ void SceneSuite::State::addRays() {
         kernels.push_back(std::make_unique<TraceKernel>(device, deviceScene, set.mode, set.rays));
         TraceKernel& kernel = *kernels.back();
         kernel.run();
-        kernel.hits();  // throws if the driver has cut it short
+        kernel.hits();  // throws if the driver has ended loops early
         const std::uint32_t passes = passesOf(kernel.run().wall);
         add(
             rayBenchmark(set.name), "Mrays/s", static_cast<double>(set.rays.size()) * passes * 1e-6,
@@ -167,7 +167,7 @@ void SceneSuite::State::addFilm(const std::string& integrator, std::size_t pixel
         {{"bytes_per_pixel", static_cast<double>(bytesPerPixel)}});
 }
 
-/// From the results of a dispatch, which is done, to the film of the render.
+/// Adds the results of a finished dispatch to the film of the render.
 void SceneSuite::State::addFilms() {
     scene.render.width = options.width;
     scene.render.height = options.height;
@@ -203,7 +203,7 @@ void SceneSuite::State::addHost() {
         return BenchTimes{secondsOf([this] { loadScene(path); }), 0.0};
     });
     add("build", "Mtriangles/s", triangles * 1e-6, [this] {
-        // The driver builds from what has been uploaded.
+        // The driver builds its tree from uploaded buffers.
         if (deviceScene.tuning.layout == Layout::kRayQuery) {
             return BenchTimes{uploadScene(device, scene, options.tuning).buildSeconds, 0.0};
         }

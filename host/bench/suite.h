@@ -12,7 +12,7 @@
 
 namespace duolux {
 
-/// What the names of a scene's benchmarks end with.
+/// The last parts of the names of a scene's benchmarks.
 inline constexpr const char* kBenchmarkNames =
     "rays/{primary,diffuse,shadow,crossings}, render/PRESET/{path,light}, film/{path,light}, load, build, "
     "upload, start/{warm,cold}";
@@ -22,11 +22,11 @@ struct SuiteOptions {
     std::uint32_t spp = 16;                   ///< of pictures
     std::uint32_t bounces = 16;
     TuningChoice tuning;
-    std::string program;            ///< path of duolux itself, for start-up; empty: leave that out
+    std::string program;            ///< path of duolux itself, for measuring its start; empty: not measured
     std::vector<std::string> only;  ///< only benchmarks whose name contains one of these; empty: all
 };
 
-/// Everything that is measured on one scene. Throws InputError if it cannot be loaded.
+/// All benchmarks of one scene. Throws InputError if it cannot be loaded.
 class SceneSuite {
   public:
     /// `name` begins the names of its benchmarks. `folder`: for files that the benchmarks write.
@@ -36,12 +36,13 @@ class SceneSuite {
     SceneSuite(const SceneSuite&) = delete;
     SceneSuite& operator=(const SceneSuite&) = delete;
 
-    /// Valid as long as the suite is. They change its scene: one at a time may run.
+    /// The benchmarks; valid during the suite's lifetime. They change its scene, so only one may run at a
+    /// time.
     const std::vector<Benchmark>& benchmarks() const;
 
     const Tuning& tuning() const;
 
-    /// What was read of the scene.
+    /// The loaded scene.
     const std::vector<std::filesystem::path>& files() const;
 
   private:

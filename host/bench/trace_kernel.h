@@ -14,20 +14,20 @@
 
 namespace duolux {
 
-/// Traces the same rays again and again: the traversal by itself.
+/// Traces the same rays repeatedly, to measure the traversal alone.
 class TraceKernel {
   public:
-    /// `count`: counts what the traversal does instead of giving hits; not with Layout::kRayQuery, because
-    /// drivers do not tell.
+    /// `count`: counts visits and tests instead of returning hits. Not with Layout::kRayQuery, because
+    /// drivers do not provide counts.
     TraceKernel(const Device& device, const DeviceScene& scene, std::uint32_t mode,
                 std::span<const shared::TraceRay> rays, bool count = false);
 
-    /// All rays, `passes` times in one submission.
+    /// Traces all rays `passes` times in one submission.
     BenchTimes run(std::uint32_t passes = 1);
 
-    /// One a ray, of the last run. Throws MachineError if the driver has cut loops short.
+    /// The hits of the last run, one for each ray. Throws MachineError if the driver has ended loops early.
     std::vector<shared::TraceHit> hits() const;
-    /// Of a kernel that counts: of the last run.
+    /// The counts of the last run, for a kernel that counts.
     shared::TraceCounts counts() const;
 
   private:

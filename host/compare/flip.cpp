@@ -49,7 +49,7 @@ glm::dvec3 ycxczToRgb(glm::dvec3 ycxcz) {
     return kXyzToRgb * (glm::dvec3(y + ycxcz.y / 500.0, y, y - ycxcz.z / 200.0) * kWhite);
 }
 
-/// CIELAB with the Hunt effect: colours differ less where it is dark.
+/// CIELAB with the Hunt effect: colour differences are smaller in dark areas.
 glm::dvec3 rgbToHuntLab(glm::dvec3 rgb) {
     const glm::dvec3 xyz = kRgbToXyz * rgb / kWhite;
     const auto f = [](double t) {
@@ -64,7 +64,7 @@ double hyab(glm::dvec3 a, glm::dvec3 b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-/// Filters rows, or columns; beyond the border the outermost pixel goes on.
+/// Filters rows or columns; the outermost pixels are repeated beyond the border.
 template <typename T>
 std::vector<T> convolve(const std::vector<T>& in, std::uint32_t width, std::uint32_t height,
                         const Kernel& kernel, bool rows) {
@@ -109,7 +109,7 @@ std::vector<double> channel(const Plane& plane, int c) {
     return values;
 }
 
-/// What the eye resolves of an image in YCxCz, as linear RGB clamped to [0, 1].
+/// Filters an image in YCxCz by the contrast sensitivity of the eye; returns linear RGB clamped to [0, 1].
 Plane filterAsSeen(const Plane& ycxcz, std::uint32_t width, std::uint32_t height, double pixelsPerDegree) {
     constexpr double kPi = std::numbers::pi;
     const int radius =

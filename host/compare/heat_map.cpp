@@ -10,7 +10,7 @@ namespace duolux {
 
 namespace {
 
-// sRGB-encoded; their lightness grows evenly, so that the order survives a print in grey.
+// sRGB-encoded. Their lightness increases evenly, so that the order is also visible in greyscale.
 constexpr std::array<glm::vec3, 6> kStops{{{0, 0, 0},
                                            {0.20f, 0.05f, 0.45f},
                                            {0.62f, 0.12f, 0.42f},

@@ -7,7 +7,7 @@
 
 namespace duolux {
 
-/// A picture of values from 0 (black) over blue, red and yellow to `largest` and above (white; green: not
+/// An image of values from 0 (black) through blue, red and yellow to `largest` and above (white; green: not
 /// finite), as the visible component, for writing as PNG.
 RadianceImage heatMap(const std::vector<float>& values, std::uint32_t width, std::uint32_t height,
                       float largest);

@@ -17,7 +17,7 @@ bool has(const char* extensions, std::string_view name) {
     return extensions != nullptr && std::string_view(extensions).find(name) != std::string_view::npos;
 }
 
-/// The displays that need no window system, best first.
+/// The displays that need no window system, in order of preference.
 std::vector<EGLDisplay> candidates() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =

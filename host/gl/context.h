@@ -7,9 +7,9 @@
 
 namespace duolux {
 
-/// An OpenGL compatibility context without window system or surface, current on this thread while it lives:
-/// of the first EGL device that is a GPU and works, or else of Mesa's surfaceless platform. Throws
-/// MachineError naming the step that failed.
+/// An OpenGL compatibility context without window system or surface, current on this thread during its
+/// lifetime. It uses the first working EGL device that is a GPU, otherwise Mesa's surfaceless platform.
+/// Throws MachineError with the step that failed.
 class GlContext {
   public:
     GlContext();

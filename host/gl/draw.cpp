@@ -300,7 +300,7 @@ void GlScene::drawOnce(std::span<const PointLight> lights, Lighting lighting) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     if (lighting == Lighting::kWireframe) return drawWireframe();
-    // Further lights are added where the first ones have found what is visible.
+    // Further lights are added only to the fragments that are visible with the first ones.
     std::size_t first = 0;
     do {
         const std::span<const PointLight> batch =
@@ -311,7 +311,7 @@ void GlScene::drawOnce(std::span<const PointLight> lights, Lighting lighting) {
             drawPerFragment(batch, first == 0);
         }
         first += batch.size();
-        // Of surfaces in one place only the first is drawn, as it was before.
+        // Of coincident surfaces, only the first is drawn, as with the first lights.
         glClear(GL_STENCIL_BUFFER_BIT);
         glEnable(GL_STENCIL_TEST);
         glStencilFunc(GL_EQUAL, 0, 1);

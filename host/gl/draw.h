@@ -24,7 +24,7 @@ enum class Lighting : std::uint8_t {
 struct DrawOptions {
     Lighting lighting = Lighting::kFixedFunction;
     std::uint32_t passes = 64;  ///< jittered images that are averaged: samples per pixel
-    /// The part of the image to draw, magnified to the whole: left, top, width, height as fractions of it.
+    /// The part of the image to draw, magnified to the full size: left, top, width, height as fractions.
     std::array<float, 4> window{0.0f, 0.0f, 1.0f, 1.0f};
 };
 
@@ -34,8 +34,8 @@ struct DrawStatistics {
     std::uint64_t vertices = 0;       ///< after sharing
 };
 
-/// A scene in OpenGL's memory and images of floats of its size to draw into. Needs a current GlContext, and
-/// must go before it.
+/// A scene in OpenGL's memory, with floating-point render targets of its size. Requires a current GlContext,
+/// which must outlive it.
 class GlScene {
   public:
     /// Throws MachineError if the driver cannot draw to images of floats.

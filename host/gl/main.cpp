@@ -1,4 +1,4 @@
-// duolux-gl: what OpenGL makes of a scene, as the reference for the `local` reflectance.
+// duolux-gl: renders a scene with OpenGL, as the reference for the `local` reflectance.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr float kCoarse = 0.5f;  // lighting at vertices is off by some percent then
+constexpr float kCoarse = 0.5f;  // above this, lighting at vertices has errors of several percent
 
 struct Arguments {
     std::string scene, lights = "5", lighting = "fixed-function", size, report;

@@ -42,8 +42,8 @@ struct Tiling {
 /// invisible light.
 std::vector<PointLight> pointLights(const Scene& scene, const Tiling& tiling);
 
-/// How coarse the scene's triangles are for lighting at their corners: the largest ratio of an edge to the
-/// distance of a light that shines on its triangle.
+/// The coarseness of the scene's triangles for lighting at their corners: the largest ratio of an edge to the
+/// distance of a light that illuminates its triangle.
 float coarseness(const Scene& scene, const std::vector<PointLight>& lights);
 
 }  // namespace duolux

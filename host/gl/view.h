@@ -8,9 +8,9 @@
 
 namespace duolux {
 
-/// Where in its pixel pass `index` samples, from the top left corner, in [0, 1): the R2 sequence of M.
+/// The sample position of pass `index` in a pixel, from the top left corner, in [0, 1): the R2 sequence of M.
 /// Roberts ("The Unreasonable Effectiveness of Quasirandom Sequences", 2018), so that edges of any direction,
-/// the diagonals too, are met at as many places as there are passes.
+/// including diagonals, are sampled at as many positions as there are passes.
 glm::vec2 jitterOf(std::uint32_t index);
 
 /// OpenGL's eye coordinates for the scene's camera.

@@ -100,7 +100,7 @@ class Laboratory {
         for (const char* preset : {"global", "shadowless", "one-bounce", "local"}) {
             const std::string name = std::string("figure1-") + preset;
             std::vector<std::string> options{"--preset", preset, "--spp", setup_.quick ? "4" : "256"};
-            // Without end `shadowless` grows without end: this is the picture of four bounces.
+            // The series of `shadowless` diverges: this image has four bounces.
             if (std::string_view(preset) == "shadowless") options.insert(options.end(), {"--bounces", "4"});
             transport("scene/visible.json", name, options);
             cells.push_back({image(name), preset});
@@ -131,7 +131,7 @@ class Laboratory {
         }
     }
 
-    /// True away from silhouettes: where a pixel and its neighbours show one object alone.
+    /// True away from silhouettes: where a pixel and its neighbours show the same object.
     std::vector<bool> smoothPixels() {
         say("Where the silhouettes are");
         transport("scene/objects.json", "objects", {"--bounces", "0", "--spp", "256"});

@@ -11,14 +11,14 @@ namespace duolux {
 
 struct ExperimentSetup {
     std::filesystem::path duolux, duoluxGl;  ///< the programs
-    std::filesystem::path folder;            ///< for everything that is made
+    std::filesystem::path folder;            ///< for all output
     std::uint32_t triangles = 500'000;
     std::uint32_t size = 512;                           ///< of the pictures, in pixels
     std::vector<std::uint32_t> spp{16, 64, 256, 1024};  ///< of the transport
     std::uint32_t passes = 64;                          ///< of OpenGL
     std::vector<std::uint32_t> crossing{1000,    5000,    20'000,
                                         100'000, 500'000, 2'000'000};  ///< triangles, for speed
-    int repetitions = 3;                                               ///< of what is timed
+    int repetitions = 3;                                               ///< of timed runs
     bool quick = false;                                                ///< for tests: few lights and samples
 };
 
@@ -29,7 +29,7 @@ struct Cell {
     Comparison all, smooth, silhouettes;  ///< of all pixels; away from silhouettes; at them
 };
 
-/// Seconds of the same picture by both.
+/// Durations in seconds of the same image with both renderers.
 struct Race {
     std::uint64_t triangles = 0;
     std::vector<double> transport, sampled, openGl;  ///< rendering alone; of each repetition, run in turns
@@ -57,7 +57,7 @@ struct Experiment {
 /// eps of the paper's result: 0.4 %.
 inline constexpr double kPaperEps = 0.004;
 
-/// Makes the scenes and all pictures in setup.folder, and compares them. Throws MachineError.
+/// Creates the scenes and all images in setup.folder, and compares them. Throws MachineError.
 Experiment runExperiment(const ExperimentSetup& setup);
 
 }  // namespace duolux

@@ -7,9 +7,9 @@
 
 namespace duolux {
 
-/// Runs a program with the arguments and `--report`, and returns the report; trees are built, not taken from
-/// the cache, so that its seconds are those of a scene that is new to it. Throws MachineError if it fails;
-/// what it said on standard error is left there.
+/// Runs a program with the arguments and `--report`, and returns the report. Trees are built instead of being
+/// read from the cache, so that the durations are those of a new scene. Throws MachineError if the program
+/// fails; its messages remain on standard error.
 nlohmann::json runProgram(const std::filesystem::path& program, std::vector<std::string> arguments,
                           const std::filesystem::path& report);
 

@@ -64,7 +64,7 @@ std::vector<Table> errorTables(const ExperimentSetup& setup, const Experiment& e
     return tables;
 }
 
-/// The processor, as the system calls it.
+/// The system's name for the processor.
 std::string processorName() {
     std::ifstream lines("/proc/cpuinfo");
     std::string name = "unknown processor";
@@ -108,7 +108,7 @@ Table speedTable(const Experiment& experiment) {
     return table;
 }
 
-/// Triangles where both take as long, by the logarithm between the two scenes around it.
+/// The number of triangles for which both take equally long, interpolated logarithmically between two scenes.
 std::optional<double> crossing(const Experiment& experiment) {
     for (std::size_t i = 1; i < experiment.races.size(); ++i) {
         const auto ratio = [](const Race& r) { return std::log(r.median(r.openGl) / r.median(r.transport)); };

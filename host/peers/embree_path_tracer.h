@@ -7,11 +7,11 @@
 
 namespace duolux {
 
-/// What the path tracer of shaders/kernels/path.comp does for the reflectance `global`, in C++ with Embree's
-/// single rays: bounces, Russian roulette, next-event estimation by the same table of emitters and multiple
-/// importance sampling by the balance heuristic are the same, random numbers are cheaper ones. The visible
-/// component of scene.render's picture. Throws UsageError if the scene has what it leaves out: smooth
-/// normals, materials with a reflectance of their own.
+/// The path tracer of shaders/kernels/path.comp for the reflectance `global`, in C++ with Embree's single
+/// rays. Bounces, Russian roulette, next-event estimation with the same table of emitters, and multiple
+/// importance sampling with the balance heuristic are the same; random numbers are cheaper. Renders the
+/// visible component of the image. Throws UsageError for unsupported features: smooth normals, materials with
+/// their own reflectance.
 RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const LightTable& lights);
 
 }  // namespace duolux

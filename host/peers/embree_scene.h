@@ -26,8 +26,8 @@ class EmbreeScene {
     Hit nearest(const glm::vec3& origin, const glm::vec3& direction, float tMax) const;
     bool occluded(const glm::vec3& origin, const glm::vec3& direction, float tMax) const;
 
-    /// All rays of a set, by rtcIntersect1 (shared::kTraceNearest) or rtcOccluded1 (kTraceAnyHit).
-    /// `distances`: of the hits, negative where there is none; one a ray.
+    /// Traces all rays of a set by rtcIntersect1 (shared::kTraceNearest) or rtcOccluded1 (kTraceAnyHit).
+    /// `distances`: of the hits, negative for a miss; one for each ray.
     void trace(std::span<const shared::TraceRay> rays, std::uint32_t mode,
                std::vector<float>& distances) const;
 

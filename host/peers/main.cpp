@@ -1,5 +1,5 @@
-// duolux-peers: the same rays and the same path tracer through Embree, in turns with Duolux on the same
-// cores.
+// duolux-peers: traces the same rays, and runs the same path tracer, with Embree and with Duolux in turns on
+// the same cores.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -42,7 +42,7 @@ BenchTimes timed(const std::function<void()>& work) {
     return {secondsOf(work), 0.0};
 }
 
-/// One scene, by both: of each benchmark Duolux first, then Embree.
+/// One scene with both renderers: for each benchmark Duolux first, then Embree.
 class Pair {
   public:
     Pair(Device& device, const std::string& name, const std::filesystem::path& file,
