@@ -4,7 +4,7 @@ namespace duolux {
 
 std::optional<CameraChoice::Contradiction> CameraChoice::contradiction() const {
     constexpr double kSmallestSine = 1e-4;
-    const char* const across = "expected a direction across the line from position to target";
+    const char* const across = "expected a vector that is not parallel to the view direction";
     if (up && *up == glm::dvec3(0.0)) return Contradiction{"up has no direction", across};
     const bool orthographic = type == CameraType::kOrthographic;
     if (height && !orthographic) {
@@ -23,7 +23,7 @@ std::optional<CameraChoice::Contradiction> CameraChoice::contradiction() const {
     if (!up) return std::nullopt;
     const double sine = glm::length(glm::cross(view, *up)) / (glm::length(view) * glm::length(*up));
     if (sine >= kSmallestSine) return std::nullopt;
-    return Contradiction{"up is along the view", across};
+    return Contradiction{"up is parallel to the view direction", across};
 }
 
 }  // namespace duolux

@@ -133,7 +133,7 @@ glm::dmat4 readTransform(const JsonNode& node) {
         node.fail("the last row is not 0, 0, 0, 1", "expected an affine transform, object to world");
     }
     if (!isRegular(glm::dmat3(matrix))) {
-        node.fail("is singular", "expected a transform that keeps solids solid");
+        node.fail("is singular", "expected an invertible transform");
     }
     return matrix;
 }
@@ -187,7 +187,7 @@ void readLight(const JsonNode& node, SceneContents& contents) {
                                glm::vec3(readDirection(node.require("edge2", directionRemedy()))),
                                {}};
     if (sineBetween(light.edge1, light.edge2) < kSmallestSine) {
-        node.fail("edge1 and edge2 span no area", "expected two directions across each other");
+        node.fail("edge1 and edge2 span no area", "expected two vectors that are not parallel");
     }
     Material& material = light.material;
     material.name = node.path();

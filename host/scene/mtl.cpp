@@ -40,7 +40,7 @@ struct Description {
 constexpr Description kDescriptions[] = {
     {Oddity::kBeforeMaterial, "a statement before any newmtl", "ignored"},
     {Oddity::kUnnamed, "newmtl without a name", "what follows it is ignored"},
-    {Oddity::kColour, "a colour that is no finite numbers", "read as if it were absent"},
+    {Oddity::kColour, "a colour that is not finite", "read as if it were absent"},
     {Oddity::kColourCount, "a colour that is not three numbers",
      "one number is grey, further ones are 0, a fourth is ignored"},
     {Oddity::kNegative, "a colour below 0", "read as 0"},

@@ -19,12 +19,12 @@ struct Description {
 
 constexpr std::array kDescriptions{
     Description{ObjOddity::kShortFace, "a face of fewer than 3 corners", "left out"},
-    Description{ObjOddity::kBadFace, "a face with a vertex index that is 0, out of range or no number",
+    Description{ObjOddity::kBadFace, "a face with a vertex index that is 0, out of range or not a number",
                 "left out"},
     Description{ObjOddity::kUnusedVertex, "a vertex that is not three finite numbers, or too large",
                 "no face uses it"},
     Description{ObjOddity::kExtraNumbers, "more numbers than the statement has", "the last ones are ignored"},
-    Description{ObjOddity::kExtraWords, "extra values that are no finite numbers", "ignored"},
+    Description{ObjOddity::kExtraWords, "extra values that are not finite numbers", "ignored"},
     Description{ObjOddity::kNormal, "a normal that is not three finite numbers",
                 "triangles that name it are flat"},
     Description{ObjOddity::kNormalIndex, "a normal index that is 0 or out of range",

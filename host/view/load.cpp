@@ -43,7 +43,7 @@ SceneFile readScene(const std::filesystem::path& path, Reading reading) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".obj") return readObjScene(path, reading);
     if (extension == ".json") return readJsonScene(path, reading);
-    throw InputError(path.string(), "", "is not a scene by its extension", "expected .obj or .json");
+    throw InputError(path.string(), "", "has no extension of a scene file", "expected .obj or .json");
 }
 
 /// Chooses camera and lamp.

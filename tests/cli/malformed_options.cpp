@@ -41,7 +41,7 @@ std::vector<WrongUsage> wrongUsages() {
         render("CameraAtWhatItLooksAt", {"--camera-position", "1,2,3", "--look-at", "1,2,3"},
                {"--camera-position 1,2,3", "--look-at", "the same"}),
         render("UpAlongTheView", {"--camera-position", "1,2,3", "--look-at", "1,2,9", "--up", "z"},
-               {"--up z", "along the view"}),
+               {"--up z", "parallel to the view direction"}),
         render("UpOfWord", {"--up", "w"}, {"--up w", "y, z or"}),
         render("UpZero", {"--up", "0,0,0"}, {"--up 0,0,0", "no direction"}),
         render("VfovZero", {"--vfov", "0"}, {"--vfov", "179.9"}),

@@ -50,7 +50,7 @@ std::vector<MalformedScene> malformedJsons() {
         camera("TargetAtPosition", R"("position": [1, 2, 3], "target": [1, 2, 3])",
                {"scene.json: camera: ", "the same"}),
         camera("UpAlongView", view + R"(, "up": [0, 0, -2])",
-               {"scene.json: camera: ", "up is along the view"}),
+               {"scene.json: camera: ", "up is parallel to the view direction"}),
         camera("FlatAngle", view + R"(, "vfov": 180)",
                {"scene.json: camera.vfov: ", "is 180", "between 0 and 180"}),
         camera("AngleAsText", view + R"(, "vfov": "40")",

@@ -182,7 +182,7 @@ TEST_F(JsonTest, CameraIsChecked) {
     const auto error = [&](const std::string& keys) { return errorWith("\"camera\": {" + keys + "}"); };
     const std::string at = R"("position": [0, 0, 5], "target": [0, 0, 0])";
     EXPECT_THAT(error(at + R"(, "up": [0, 0, 3])"),
-                HasSubstr("camera: up is along the view; expected a direction"));
+                HasSubstr("camera: up is parallel to the view direction; expected a vector"));
     EXPECT_THAT(error(at + R"(, "up": [0, 0, 0])"), HasSubstr("camera: up has no direction"));
     EXPECT_THAT(error(R"("position": [1, 1, 1], "target": [1, 1, 1])"),
                 HasSubstr("camera: position and target are the same"));

@@ -108,8 +108,9 @@ TEST_F(LenientTest, FacesWithoutTheirVerticesAreLeftOut) {
     EXPECT_EQ(scene.geometry.normalIndices[0], glm::uvec3(0, 0, 0));
     EXPECT_THAT(
         withoutLight(scene.warnings),
-        Contains("mesh.obj: line 6: a face with a vertex index that is 0, out of range or no number (and 2 "
-                 "more): left out"));
+        Contains(
+            "mesh.obj: line 6: a face with a vertex index that is 0, out of range or not a number (and 2 "
+            "more): left out"));
     EXPECT_EQ(errorOfObj(head + "f 1 2 9\nf 1 2 0\n"),
               "mesh.obj: line 5: vertex index 9 is out of range; there are 3 vertices in the file");
 }
@@ -161,7 +162,7 @@ TEST_F(LenientTest, VerticesThatNoFaceUsesMayBeAnything) {
 }
 
 TEST_F(LenientTest, NumbersThatAreNotUsedMayBeAnything) {
-    const std::string extra = "mesh.obj: line 5: extra values that are no finite numbers: ignored";
+    const std::string extra = "mesh.obj: line 5: extra values that are not finite numbers: ignored";
     EXPECT_THAT(warningsOf("v 0 0 0 nan nan nan\nf 5 2 3\n"), ElementsAre(extra));
     EXPECT_THAT(warningsOf("v 0 0 0 foo\nf 5 2 3\n"), ElementsAre(extra));
     EXPECT_THAT(

@@ -222,7 +222,7 @@ TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
 
 TEST_F(ObjTest, OtherExtensionsAreRefused) {
     write("mesh.ply", kTriangleObj);
-    EXPECT_EQ(errorOf("mesh.ply"), "mesh.ply: is not a scene by its extension; expected .obj or .json");
+    EXPECT_EQ(errorOf("mesh.ply"), "mesh.ply: has no extension of a scene file; expected .obj or .json");
     EXPECT_THAT(errorOf("none.obj"), StartsWith("none.obj: cannot open: No such file"));
 }
 
