@@ -12,7 +12,7 @@
 
 namespace duolux::test {
 
-/// Corners, ray, and what the device says of them.
+/// Corners, ray, and the device's result.
 struct Shot {
     glm::vec3 v0, v1, v2, origin, direction;
 };
@@ -49,8 +49,8 @@ std::vector<ShotHit> shoot(const std::vector<Shot>& shots) {
                                          shots);
 }
 
-/// Where a ray meets the plane of a triangle, and the barycentric coordinates there (Moeller and Trumbore,
-/// 1997).
+/// The intersection of a ray with the plane of a triangle, and its barycentric coordinates (Moeller and
+/// Trumbore, 1997).
 struct Reference {
     double t;
     std::array<double, 3> barycentric;

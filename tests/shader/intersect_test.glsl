@@ -93,8 +93,8 @@ TEST(AScaledSceneIsHitAlikeToTheBit) {
     EXPECT_EQ(s.barycentric, h.barycentric);
 }
 
-// The edge functions are of the size of areas: below 1e-15 they feel that floats end at 2^-126, where devices may take
-// what is smaller for zero.
+// Edge functions have the magnitude of areas: below 1e-15 they approach 2^-126, and devices may flush smaller numbers
+// to zero.
 TEST(ScalesFrom1eMinus18To1e18) {
     Triangle tri = randomTriangle();
     vec2 b = randomInside(0.05);
@@ -107,7 +107,7 @@ TEST(ScalesFrom1eMinus18To1e18) {
     EXPECT_NEAR(h.barycentric, h.hit ? b : h.barycentric, allowed);
 }
 
-// Two equal corners make the edge functions cancel to the bit.
+// With two equal corners, the edge functions cancel exactly.
 TEST(TrianglesWithEqualCornersAreNeverHit) {
     vec3 p = randomVec3(-1.0, 1.0);
     vec3 q = randomVec3(-1.0, 1.0);
@@ -120,8 +120,8 @@ TEST(TrianglesWithEqualCornersAreNeverHit) {
     EXPECT_FALSE(shoot(triangleOf(p, p, p), origin, normalize(p - origin)).hit);
 }
 
-// Three corners on a line: no hit where the projection is exact. Where it is rounded, what remains of the triangle may
-// be hit, but only where the line is.
+// Three collinear corners: no hit if the projection is exact. If it is rounded, the ray may hit the remaining sliver,
+// but only on the line.
 TEST(TrianglesWithCornersOnALineAreNoSurface) {
     vec3 p = floor(randomVec3(-100.0, 100.0));
     vec3 step = floor(randomVec3(-10.0, 11.0));
@@ -145,7 +145,7 @@ TEST(TrianglesWithCornersOnALineAreNoSurface) {
     EXPECT_FALSE(length(aside) > 0.1 && shoot(tri, origin, d).hit);
 }
 
-// A ray in the plane of a triangle sees no area of it; beside the plane there is nothing.
+// A ray in the plane of a triangle sees no area, and a ray parallel to the plane does not hit it.
 TEST(EdgeOnThereIsNoHit) {
     int axis = int(randomUint() % 3u);
     Triangle tri = randomTriangle();
@@ -158,7 +158,7 @@ TEST(EdgeOnThereIsNoHit) {
     EXPECT_FALSE(shoot(tri, origin, d).hit);
 }
 
-// What is not a number, or infinite, in a ray or a triangle: no distance that a traversal would accept.
+// NaN or infinity in a ray or a triangle: the distance is one that no traversal accepts.
 TEST(NotANumberAndInfinityAreNoAcceptedHit) {
     Triangle tri = randomTriangle();
     vec3 d = randomDirectionAcross(tri);
@@ -200,7 +200,7 @@ TEST(PointsOnATriangleAreWeightedMeansOfCorners) {
     EXPECT_NEAR(pointOnTriangle(tri, b), tri.v0 + (tri.v1 - tri.v0) * b.x + (tri.v2 - tri.v0) * b.y, 1e-6);
 }
 
-// 2^-19 of the coordinate of the largest magnitude, whichever of the nine that is.
+// 2^-19 of the largest magnitude of the nine coordinates.
 TEST(PointErrorIsSetByTheLargestCoordinate) {
     Triangle tri = randomTriangle();
     uint place = randomUint() % 9u;
@@ -250,7 +250,7 @@ TEST(BoxesAreMetThroughAnyPointOfThem) {
     EXPECT_FALSE(intersectBox(p + d * (t + length(box.upper - box.lower) * 21.0), d, 0.0, box.lower, box.upper));
 }
 
-// From inside a ray meets its box whatever its direction; beyond the far side it does not.
+// A ray from inside a box intersects it in every direction; beyond the far side it does not.
 TEST(BoxesAreLeftBeyondTheFarSide) {
     Box box = randomBox();
     vec3 p = mix(box.lower, box.upper, randomVec3(0.0, 1.0));
@@ -319,7 +319,7 @@ TEST(SumsOfThreeDoNotDependOnTheirOrder) {
     EXPECT_EQ(sumOfThree(b, a, c), sum);
 }
 
-// In memory it begins with another corner wherever it has another neighbour in its pair.
+// In memory, the first corner of a triangle depends on its neighbour in the pair.
 TEST(ATriangleIsMetAlikeWhicheverCornerComesFirst) {
     float scale = exp2(randomFloat(-20.0, 20.0));
     Triangle tri = scaled(randomTriangle(), scale, randomVec3(-10.0, 10.0) * scale);

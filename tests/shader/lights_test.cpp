@@ -22,7 +22,7 @@ namespace {
 using mirror::single::LightSample;
 using reference::Vec3;
 
-/// Emitting triangles of all sizes and brightnesses, each of a material of its own, among others that do not
+/// Emitting triangles with many sizes and radiances, each with its own material, among triangles that do not
 /// emit; every third emits on both sides.
 Scene randomEmitters(std::size_t count, std::uint32_t seed) {
     std::mt19937 engine(seed);
@@ -112,7 +112,7 @@ TEST(SampleLight, PicksEmittersByPower) {
             EXPECT_NEAR(static_cast<double>(table.pdfArea[i + 1]) * emitters[i].area / emitters[i].chance,
                         1.0, 1e-6);
         }
-        if (count == 1) continue;  // has been picked each time
+        if (count == 1) continue;  // always chosen
         const ChiSquare test = chiSquare(observed, expected);
         EXPECT_GE(test.p, sidakLevel(kAlpha, 4))
             << count << " emitters: " << test.statistic << " of " << test.degrees << " degrees";
@@ -237,8 +237,8 @@ TEST(SampleLight, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
 }
 
 // Every particle carries the power of the whole scene, in the colours of its emitter: because points are
-// picked by power, the sum of channels is the same for all, and the mean of each is that channel's power
-// (Student's test with the sample's variance; 3 tests, level 1e-4).
+// sampled by power, the sum of the channels is the same for all particles, and the mean of each channel is
+// its power (Student's test with the sample's variance; 3 tests, level 1e-4).
 TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
     const Scene scene = randomEmitters(300, 20);
     glm::dvec3 power(0.0);

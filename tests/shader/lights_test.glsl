@@ -26,7 +26,8 @@ TEST_N(BalanceHeuristicAtItsLimits, 1) {
               vec3(0.0, 1.0, 0.0));
 }
 
-// dA cos = d^2 dw: a density twice as far away is four times that per steradian, from the side it is more, whichever.
+// dA cos = d^2 dw: at twice the distance the density per steradian is four times as large; at an oblique angle it is
+// larger, on either side.
 TEST(DensityPerSteradianGoesBySquareOfDistanceAndCosine) {
     float density = randomScale(-10.0, 10.0);
     float squared = randomScale(-10.0, 10.0);
@@ -43,7 +44,7 @@ TEST_N(DensityIsFiniteAlongTheEmitter, 1) {
     EXPECT_ULP(pdfAreaToSolidAngle(1.0, 1.0, 2e-12), 0.5e12, 1.0);
 }
 
-// Of one emitter of area A every particle carries pi E A a side.
+// For a single emitter of area A, every particle carries pi E A for each side.
 TEST(FluxOfOneEmitterIsItsPower) {
     float area = randomScale(-20.0, 20.0);
     EXPECT_ULP(emittedFlux(1.0 / area, 1.0), 3.14159265358979 * area, 8.0);

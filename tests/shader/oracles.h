@@ -22,8 +22,8 @@
 
 namespace duolux::test {
 
-/// How far a result may be from the exact one: `ulps` units in the last place of the exact result as a float,
-/// or `floor`, whichever is more.
+/// The allowed difference from the exact result: the larger of `floor` and `ulps` units in the last place of
+/// the exact result as a float.
 struct Budget {
     double ulps;
     double floor;

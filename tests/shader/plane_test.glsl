@@ -33,8 +33,8 @@ TEST(DistanceDoesNotDependOnTheOrientation) {
               floatBitsToUint(planeDistance(plane, origin, d)));
 }
 
-// In all sizes, and far from the foot of the origin: what is left is a part of the bound, which is a few roundings of
-// the point's coordinates, and planeDistance finds as much.
+// For all sizes, and far from the point nearest to the origin: the remaining distance, also by planeDistance, is within
+// the bound, which is a few roundings of the point's coordinates.
 TEST(PointsPutOntoThePlaneAreWithinTheirError) {
     float size = randomScale(-20.0, 20.0);
     vec3 normal = randomDirection();

@@ -57,8 +57,8 @@ double exact(const Triangle& t) {
     return std::abs(lambertPolygon(Vec3(0.0), glm::normalize(Vec3(t.normal)), corners));
 }
 
-/// What a square of its longest edge would have if it faced the receiver from above: what cosines, and being
-/// thin, make less of.
+/// The value for a square with the triangle's longest edge that faces the receiver from above: an upper bound
+/// for oblique and thin triangles.
 double facing(const Triangle& t) {
     const Vec3 edge1(t.edge1), edge2(t.edge2), middle = Vec3(t.a) + (edge1 + edge2) / 3.0;
     const double longest =
@@ -203,8 +203,8 @@ TEST_F(PolygonLight, RectanglesOverheadHaveTheirConfigurationFactor) {
             << i;
 }
 
-// The integral that the formula solves, cos cos' / d^2 over the area, by the midpoints of 200^2 cells.
-// Triangles that the horizon cuts lose accuracy where it does.
+// The integral of cos cos' / d^2 over the area, by the midpoints of 200^2 cells. For triangles that the
+// horizon clips, this sum is less accurate.
 TEST_F(PolygonLight, SumsOverTheAreaAgree) {
     std::vector<Triangle> inputs;
     std::vector<double> expected;

@@ -1,4 +1,4 @@
-// Lambert's formula: what holds for the projected solid angle of any triangle.
+// Lambert's formula: properties of the projected solid angle of any triangle.
 #include "shaders/lib/polygon_light.glsl"
 
 // A triangle about a point at distance 1, of a size from a tenth to seven times that; some are cut by the horizon, some
@@ -21,7 +21,7 @@ Corners randomCorners() {
 
 float projected(Corners p) { return projectedSolidAngle(p.a, p.b - p.a, p.c - p.a, p.normal); }
 
-// Of up to three triangles the sum, less that of a fourth. (A loop, because drivers take long to compile each call.)
+// The sum over up to three triangles, minus a fourth. (A loop, because drivers take long to compile each call.)
 float sumLess(Corners parts[3], int count, Corners whole) {
     float sum = 0.0;
     for (int i = 0; i <= count; i++) {
@@ -80,7 +80,7 @@ TEST(RotatingReceiverAndTriangleTogetherChangesNothing) {
                 kTolerance);
 }
 
-// Only directions count: an edge from a corner nearby to one far away meets the horizon in the same direction.
+// The result depends only on directions, also for an edge from a near to a distant corner that crosses the horizon.
 TEST(MovingCornersTowardsTheReceiverAndAwayChangesNothing) {
     Corners p = randomCorners();
     vec3 s = vec3(randomScale(-12.0, 12.0), randomScale(-12.0, 12.0), randomScale(-12.0, 12.0));

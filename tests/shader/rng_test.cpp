@@ -10,7 +10,7 @@
 #include "tests/shader/published_sequences.h"
 #include "tests/shader/uniformity.h"
 
-// The random numbers: as published, uniform, and without a trace of their counters.
+// The random numbers: equal to the published ones, uniform, and uncorrelated with their counters.
 
 namespace duolux::test {
 namespace {

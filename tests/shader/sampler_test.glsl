@@ -1,8 +1,8 @@
 // The samples of a path.
 #include "shaders/lib/sampler.glsl"
 
-// Vertices below 65536 scattering events, 16384 crossings each, four purposes: none shares its dimension with another,
-// because all three can be read off it.
+// Vertices with fewer than 65536 scattering events and 16384 crossings, and four purposes, have distinct dimensions,
+// because all three numbers can be recovered from the dimension.
 void expectDimension(uint scattering, uint crossing, uint purpose) {
     uint dimension = sampleDimension(scattering, crossing, purpose);
     EXPECT_EQ(uvec3(dimension >> 16u, (dimension >> 2u) & 0x3fffu, dimension & 3u),

@@ -148,8 +148,9 @@ TEST(Sobol, EveryAlignedRunOfAnyPairIsANet) {
     }
 }
 
-/// The net is there in order to integrate: a smooth function's error falls faster than 1 / n, of which random
-/// numbers have the square root. For x y e^(x + y), whose integral is 1: the root mean square over 64 keys.
+/// The integration error of a smooth function falls faster than 1 / n; with random numbers it falls with 1 /
+/// sqrt(n). The function is x y e^(x + y), whose integral is 1; the error is the root mean square over 64
+/// keys.
 TEST(Sobol, IntegratesBetterThanRandomNumbers) {
     const auto error = [&](std::uint32_t n) {
         double sum = 0.0;

@@ -9,7 +9,8 @@
 #include "tests/shader/mirror_types.h"
 #include "tests/shader/oracles.h"
 
-// Points on surfaces: the bound on their rounding errors at every scale, frames in double, and both oracles.
+// Points on surfaces: the bound on rounding errors at every scale, frames in double precision, and both
+// oracles.
 
 namespace duolux::test {
 namespace {
@@ -137,8 +138,8 @@ TEST(Surface, FramesMatchDoublePrecision) {
     const std::vector<glm::vec3> local = surface().call<glm::vec3>("toFrame", normals, directions);
     const std::vector<glm::vec3> world = surface().call<glm::vec3>("fromFrame", normals, directions);
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        // Space turned from z to the normal the short way; below the equator from -z, the second axis turned
-        // around.
+        // The rotation from z to the normal by the smaller angle; below the equator the rotation from -z,
+        // with the second axis negated.
         const double side = normals[i].z < 0.0f ? -1.0 : 1.0;
         const glm::dvec3 n(normals[i]);
         const auto turned = [&](const glm::dvec3& e) {
@@ -152,9 +153,9 @@ TEST(Surface, FramesMatchDoublePrecision) {
     }
 }
 
-/// The same with a plane: the point is put where the ray met it, on the ray's side by what its own size may
-/// be wrong, however large the triangle is; behind others it is on the plane, and a ray that leaves begins
-/// after the surface itself.
+/// The same with a stored plane: the point is at the ray's intersection, offset to the ray's side by a bound
+/// that depends on the point's size and not on the triangle's. Behind coincident surfaces it is on the plane,
+/// and a ray that leaves it starts after the surface itself.
 TEST(Surface, WithPlanesPointsAreAsExactAsTheirOwnSize) {
     const glm::vec4 plane(glm::normalize(glm::vec3(0.2f, 1.0f, -0.3f)), 0.25f);
     const glm::vec3 normal(plane);

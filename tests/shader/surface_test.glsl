@@ -42,7 +42,7 @@ Triangle flatTriangle(uint flags) {
     return Triangle(vec3(-1.0, -1.0, 0.0), vec3(3.0, -1.0, 0.0), vec3(-1.0, 3.0, 0.0), 0u, flags);
 }
 
-// The side is the one that the ray comes from, however grazing it is.
+// The point is on the side from which the ray comes, even at grazing angles.
 TEST(GeometricNormalIsOnTheRaysSide) {
     float side = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
     vec3 ray = normalize(vec3(randomFloat(-1.0, 1.0), 1.0, 0.0));
@@ -81,7 +81,7 @@ TEST(SmoothNormalsAreUsedOnlyIfFlagged) {
     EXPECT_EQ(surfacePoint(flagged, triangle, b, normal, ray, true).geometricNormal, normal);
 }
 
-// Both normals are on the ray's side, whichever side the ray is on, and whichever the normals of the corners are on.
+// Both normals are on the ray's side, for both sides of the ray and of the corners' normals.
 TEST(BothNormalsAreOnOneSide) {
     float side = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
     float corners = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
@@ -161,13 +161,13 @@ void expectFrame(vec3 n) {
 
 TEST_N(FramesAreThereAndBack, 8192) { expectFrame((testIndex() & 1u) == 0u ? randomDirection() : hardNormal()); }
 
-// What comes out of a frame is unit, however the roundings of what went in have added up.
+// A direction transformed from a frame is unit, despite accumulated rounding errors of the inputs.
 TEST(FromFrameIsUnit) {
     vec3 w = randomDirection() * randomFloat(0.5, 2.0);
     EXPECT_NEAR(length(fromFrame(hardNormal(), w)), 1.0, 3e-7);
 }
 
-// Without planes a point stays, and a ray that leaves it begins there.
+// Without stored planes, a point does not move, and a ray that leaves it starts at the point.
 TEST(WithoutPlanesNothingIsMoved) {
     SurfacePoint point = pointWithNormals(randomDirection(), randomDirection());
     point.position = randomVec3(-1.0, 1.0);

@@ -9,7 +9,7 @@
 #include "host/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
-// Geometry that is hard on rays, and random points and directions.
+// Difficult geometry for rays, and random points and directions.
 
 namespace duolux::test {
 

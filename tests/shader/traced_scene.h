@@ -51,12 +51,12 @@ DUOLUX_GLSL_TYPE(duolux::test::TraceOptions, "TraceOptions",
 
 namespace duolux::test {
 
-/// What the device has of a scene.
+/// The data of a scene on the device.
 struct DeviceTree {
     std::vector<shared::WideNode> nodes;
     std::vector<shared::DevicePair> pairs;
 
-    /// The second ones that pairs lack included.
+    /// Includes the missing second triangles of pairs.
     std::uint32_t triangles() const { return 2 * static_cast<std::uint32_t>(pairs.size()); }
 };
 
@@ -80,8 +80,8 @@ inline void append(DeviceTree& tree, const Geometry& geometry, const WideBvh& bv
     }
 }
 
-/// Functions of the traversal on this tree; nodesFetched counts. A ray against all triangles, in the order of
-/// (distance, order), is a walk that knows no tree: closestOfAll.
+/// Functions of the traversal for this tree; nodesFetched counts visits. closestOfAll tests a ray against all
+/// triangles without a tree, in the order of (distance, order).
 inline ShaderLibrary traversalOf(const DeviceTree& tree) {
     ShaderLibrary library("shaders/lib/traverse.glsl");
     library.define(R"(

@@ -67,7 +67,7 @@ int compareNearest(const TracedScene& scene, const std::vector<TestRay>& rays,
             ++failures;
             ADD_FAILURE() << "ray " << r << " hit at " << hit.t << ", behind " << nearestCertain;
         }
-        // What it did hit must be there.
+        // The hit must exist.
         const auto own = referenceHit(geometry, scene.triangleOf(hit.primitive), rays[r]);
         if (own && (own->inside < -kEdge || std::abs(own->t - static_cast<double>(hit.t)) > tolerance)) {
             ++failures;
@@ -171,7 +171,7 @@ TEST(Traversal, AnyHitAgreesWithNearestHitAndTheLargestDistance) {
     }
 }
 
-/// Every surface along a ray is met exactly once, coincident ones included.
+/// A ray crosses every surface along it exactly once, including coincident ones.
 TEST(Traversal, AllCrossingsAreMetOnce) {
     const TracedScene scene(soup(400, 1.0f));
     const std::vector<TestRay> rays = randomRays(2000, 1.0f);
@@ -261,7 +261,7 @@ std::ostream& operator<<(std::ostream& out, const HardScene& scene) {
 
 class TraversalOf : public testing::TestWithParam<HardScene> {};
 
-/// All crossings, in order, and what no triangle tells of a ray that meets nothing: to the bit.
+/// All crossings in order, and the state of a ray without crossings, must be bitwise identical.
 TEST_P(TraversalOf, AllTrianglesAgreesToTheBit) {
     const HardScene& hard = GetParam();
     const TracedScene scene(hard.geometry());
@@ -292,7 +292,7 @@ INSTANTIATE_TEST_SUITE_P(
                     HardScene{"Growing", growing, 2.0f}, HardScene{"Single", single, 1.0f}),
     [](const auto& scene) { return scene.param.name; });
 
-/// Lanes leave the traversal and come back when others are done: with whatever thresholds, for the same hits.
+/// Lanes leave the traversal and return when others are done: all thresholds give the same hits.
 TEST(Traversal, LeavingAndResumingChangesNothing) {
     const TracedScene scene(soup(400, 1.0f));
     const std::vector<TestRay> rays = randomRays(3000, 1.0f);
@@ -310,7 +310,7 @@ TEST(Traversal, LeavingAndResumingChangesNothing) {
     }
 }
 
-/// The tree over emitters lies behind the other, and its triangles are copies that keep their primitives.
+/// The tree over emitters follows the other tree, and its triangles are copies with the same primitives.
 TEST(Traversal, ASecondTreeIsTracedFromItsOwnRoot) {
     const Geometry geometry = soup(600, 1.0f);
     TracedScene scene(geometry);

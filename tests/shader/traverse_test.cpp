@@ -65,8 +65,7 @@ TEST(Traverse, LanesAreCounted) {
     }
 }
 
-/// A chain as deep as trees may be, at every level of which another node waits on the stack, nothing ever
-/// pruned.
+/// A chain of the maximum depth, with another node on the stack at every level and without pruning.
 TEST(Traverse, AChainOfTheLargestDepthIsTraversed) {
     const glm::uvec3 lower(0), upper(255);
     DeviceTree tree;
@@ -106,7 +105,7 @@ TEST(Traverse, AChainOfTheLargestDepthIsTraversed) {
     EXPECT_FALSE(next[count].found());
 }
 
-/// Two chains of nodes in opposite octants: what is behind a hit is pruned if the nearer comes first.
+/// Two chains of nodes in opposite octants: the farther one is pruned if the nearer one is visited first.
 TEST(Traverse, TheNearerOctantIsVisitedFirst) {
     for (int s = 0; s < 8; ++s) {
         const glm::vec3 sign((s & 4) != 0 ? 1 : -1, (s & 2) != 0 ? 1 : -1, (s & 1) != 0 ? 1 : -1);

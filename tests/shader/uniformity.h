@@ -12,7 +12,7 @@
 
 #include "tests/support/statistics.h"
 
-// Whether words look random.
+// Statistical tests for random words.
 
 namespace duolux::test {
 
@@ -31,7 +31,7 @@ class Family {
     std::vector<std::pair<std::string, double>> members_;
 };
 
-/// That all values below `bins` are as frequent as another.
+/// Tests that all values below `bins` have the same frequency.
 inline double evenly(std::span<const std::uint32_t> values, std::size_t bins) {
     std::vector<double> observed(bins);
     for (const std::uint32_t v : values)
@@ -40,7 +40,7 @@ inline double evenly(std::span<const std::uint32_t> values, std::size_t bins) {
     return chiSquare(observed, expected).p;
 }
 
-/// That pairs (a, b) fall evenly into 2^bits x 2^bits squares of the unit square.
+/// Tests that pairs (a, b) are distributed evenly over 2^bits x 2^bits squares of the unit square.
 inline double evenlyInSquares(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b, int bits) {
     std::vector<std::uint32_t> squares;
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -56,7 +56,8 @@ inline double correlation(std::span<const std::uint32_t> a, std::span<const std:
     return sum / static_cast<double>(a.size());
 }
 
-/// That the correlation of n independent pairs is 0: it is about normal with deviation 1 / sqrt(n).
+/// Tests that the correlation of n independent pairs is 0; it is approximately normal with deviation 1 /
+/// sqrt(n).
 inline double uncorrelated(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
     const double deviations = correlation(a, b) * std::sqrt(static_cast<double>(a.size()));
     return std::erfc(std::abs(deviations) / std::sqrt(2.0));

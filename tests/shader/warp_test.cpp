@@ -66,9 +66,8 @@ TEST(Warp, UniformTriangleCoversTheTriangle) {
     }
 }
 
-/// Malley's method in double, and back: u.x = 1 - z^2, u.y = the angle. The device's sine and cosine may be
-/// off by 2^-11 (Vulkan's specification of precision), which is for a wrong formula; 2e-6 is what is good
-/// enough here.
+/// Malley's method in double precision, and its inverse: u.x = 1 - z^2, u.y = the angle. Vulkan allows errors
+/// of 2^-11 for the device's sine and cosine, which would hide a wrong formula; this test requires 2e-6.
 TEST(Warp, CosineHemisphereMatchesItsFormula) {
     const std::vector<glm::vec2> us = squareWithEdges();
     const std::vector<glm::vec3> ws = warp().call<glm::vec3>("cosineHemisphere", us);

@@ -60,7 +60,7 @@ TEST(Pairs, AreTheHalvesOfSquares) {
     }
 }
 
-/// Whatever is paired, all corners of both triangles are there, in order.
+/// For all pairs, all corners of both triangles are present, in order.
 void expectCorners(const Geometry& geometry, const std::vector<TrianglePair>& pairs) {
     std::multiset<std::uint32_t> seen;
     for (const TrianglePair& pair : pairs) {

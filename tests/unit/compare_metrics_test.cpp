@@ -6,7 +6,7 @@
 #include "host/compare/heat_map.h"
 #include "host/film/srgb.h"
 
-// Every metric against numbers worked out by hand.
+// Every metric against values calculated by hand.
 
 namespace duolux {
 namespace {

@@ -1,4 +1,4 @@
-// Round trips through the image formats, and what other programs find in the files.
+// Round trips through the image formats, and the contents of the files as other programs read them.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>

@@ -1,4 +1,4 @@
-// A failed write is a MachineError that leaves the file as it was, and nothing beside it.
+// A failed write throws MachineError, leaves the old file unchanged, and leaves no other files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -8,7 +8,8 @@
 namespace duolux {
 namespace {
 
-/// A picture of these means, looked at with a film that clamps at 2^58 quanta and loses what is below one.
+/// A first look at an image with these means, by a film that clamps at 2^58 quanta and drops values below one
+/// quantum.
 struct Picture {
     double invisible, visible;
     int looks = 0;

@@ -32,8 +32,8 @@ glm::vec<sizeof...(Components), T> operator->*(const glm::vec<N, T>& v, Swizzle<
 }
 }  // namespace swizzle
 
-/// What the kernels' texel buffers hold; the functions that fetch from them are the library's only way to a
-/// scene.
+/// The contents of the kernels' texel buffers. The library reads a scene only through the functions that
+/// fetch from them.
 struct Texels {
     std::vector<glm::uvec4> nodes, pairs, planes, normals, materials, lights;
 };
