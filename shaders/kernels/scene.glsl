@@ -1,4 +1,4 @@
-// What the kernels of both integrators know of a scene: its buffers, its parameters and how a lane fetches them.
+// The scene as the kernels of both integrators see it: buffers, parameters, and functions that fetch from them.
 #include "shaders/shared/bvh_layout.h"
 #include "shaders/shared/path_layout.h"
 
@@ -32,8 +32,8 @@ LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m
 LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
 LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
 
-// Length of a ray that nothing ends.
+// Length of a ray without an end point.
 const float kInfinity = 1e30;
 
-// Surfaces along a ray are met one by one, also where they coincide.
+// Whether a ray visits the surfaces along it one by one, including coincident ones.
 const bool kOrdered = kTransmittance != kTransmittanceZero || kPlanes;

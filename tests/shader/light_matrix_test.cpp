@@ -39,7 +39,7 @@ void expectScatter(const char* preset, Scatter expected) {
     std::vector<Light> lights;
     std::vector<float> opaque, transparent;
     for (const float i : {0.0f, 1.0f, 3.0f}) {
-        for (const float v : {0.0f, 2.0f}) {  // absorbed, whatever it is (eq. 13)
+        for (const float v : {0.0f, 2.0f}) {  // always absorbed (eq. 13)
             for (const float f : {0.0f, 0.25f, 0.5f}) {
                 for (const float g : {0.0f, 1.0f}) {
                     lights.push_back({{i, 2.0f * i, 4.0f * i}, {v, 0.0f, 8.0f * v}});
@@ -72,7 +72,7 @@ TEST(Presets, DoToLightWhatThePaperSays) {
     expectScatter("one-bounce", [](float i, float f, float) { return glm::vec2(0.0f, f * i); });
 }
 
-// Between the corners of the reflectance square F is bilinear: t and o scale what passes and what goes on.
+// Between the corners of the reflectance square F is bilinear: t and o scale transmitted and scattered light.
 TEST(Blend, ScalesWhatPassesAndWhatIsInterreflected) {
     for (const float t : {0.0f, 0.25f, 1.0f}) {
         for (const float o : {0.0f, 0.5f, 1.0f}) {

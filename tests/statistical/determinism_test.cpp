@@ -179,7 +179,7 @@ Scene thickStack() {
 TEST(Determinism, DispatchesAreBoundedWhereAPathMeetsManySurfaces) {
     Scene stack = thickStack();
     stack.render.spp = 20;
-    RenderControl parts;  // many dispatches of a pass are under way when the first turns out to be too long
+    RenderControl parts;  // many dispatches of a pass are in flight when the first is found to be too long
     parts.maxPixelsPerDispatch = 128;
     const RenderOutput output = render(device(), stack, parts);
     EXPECT_EQ(output.film.totalSamples(), 32u * 32u * 20u);
