@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <ctime>
 #include <string_view>
 
 namespace duolux {
@@ -11,6 +12,17 @@ namespace {
 
 volatile std::sig_atomic_t deferred = 0;
 volatile std::sig_atomic_t stopSignal = 0;
+timespec firstSignal{};  // when it came
+
+/// Programs such as timeout(1) send a signal to the process and to its group: the same request twice.
+bool repeatsFirst() {
+    constexpr double kSeconds = 0.5;
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<double>(now.tv_sec - firstSignal.tv_sec) +
+               1e-9 * static_cast<double>(now.tv_nsec - firstSignal.tv_nsec) <
+           kSeconds;
+}
 
 ExitStatus statusOf(int signal) {
     return signal == SIGINT || signal == SIGHUP ? ExitStatus::kInterrupted : ExitStatus::kTerminated;
@@ -18,10 +30,11 @@ ExitStatus statusOf(int signal) {
 
 extern "C" void onSignal(int signal) {
     if (deferred != 0 && stopSignal == 0) {
+        ::clock_gettime(CLOCK_MONOTONIC, &firstSignal);
         stopSignal = signal;
         return;
     }
-    if (signal == SIGXCPU && stopSignal != 0) return;  // SIGXCPU is repeated every second
+    if (stopSignal != 0 && (signal == SIGXCPU || repeatsFirst())) return;  // SIGXCPU comes every second
     constexpr std::string_view kInterrupted = "duolux: interrupted\n", kTerminated = "duolux: terminated\n";
     const std::string_view line = statusOf(signal) == ExitStatus::kInterrupted ? kInterrupted : kTerminated;
     static_cast<void>(!::write(STDERR_FILENO, line.data(), line.size()));

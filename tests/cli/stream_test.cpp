@@ -93,6 +93,15 @@ TEST_F(Signals, KeepTheWorkOfARender) {
     }
 }
 
+/// As timeout(1) does, which signals the process and then its group.
+TEST_F(Signals, TwiceAtOnceIsOnce) {
+    const ProgramResult result = shell(
+        "$R --spp 10000000 --time-limit 60 & sleep 4; kill -TERM $!; kill -TERM $!; sleep 0.01; kill -TERM "
+        "$!; wait $!");
+    EXPECT_EQ(result.status, 143) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("terminated: wrote"));
+}
+
 TEST_F(Signals, AHangUpThatWasIgnoredIsIgnored) {
     const ProgramResult result =
         shell("trap '' HUP; $R --time-limit 2 --spp 10000000 & sleep 1; kill -HUP $!; wait $!");
