@@ -74,10 +74,22 @@ void printTable(const std::vector<std::vector<std::string>>& rows) {
     }
 }
 
-std::string describeEmission(const Emission& emission) {
+std::string describe(const glm::vec3& value) {
+    return colour(value);
+}
+
+std::string describe(const Sides& sides) {
+    return nameOf(sides);
+}
+
+std::string describe(const Emission& emission) {
     if (!emission.any()) return "-";
     return fmt::format("inv {}; vis {}{}", colour(emission.invisible), colour(emission.visible),
                        emission.sides == Sides::kBoth ? "; both sides" : "");
+}
+
+std::string describe(const std::optional<Reflectance>& reflectance) {
+    return reflectance ? describeReflectance(*reflectance) : "the scene's";
 }
 
 void printGeometry(const Scene& scene) {
@@ -115,14 +127,13 @@ void printLights(const Scene& scene) {
 
 void printMaterials(const Scene& scene) {
     const std::vector<std::size_t> triangles = trianglesOfMaterials(scene);
-    std::vector<std::vector<std::string>> rows{
-        {"material", "triangles", "diffuse", "sides", "emission", "reflectance"}};
+    std::vector<std::vector<std::string>> rows{{"material", "triangles"}};
+    forEachField(Material(), [&](const char* name, const auto&) { rows.front().emplace_back(name); });
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        rows.push_back({shortened(material.name), withSeparators(triangles[i]), colour(material.diffuse),
-                        material.sides == Sides::kBoth ? "both" : "front",
-                        describeEmission(material.emission),
-                        material.reflectance ? describeReflectance(*material.reflectance) : "the scene's"});
+        std::vector<std::string>& row =
+            rows.emplace_back(std::vector{shortened(material.name), withSeparators(triangles[i])});
+        forEachField(material, [&](const char*, const auto& field) { row.push_back(describe(field)); });
     }
     fmt::print("\n");
     printTable(rows);

@@ -46,8 +46,20 @@ Json cameraOf(const Scene& scene) {
     return json;
 }
 
-const char* nameOf(Sides sides) {
-    return sides == Sides::kBoth ? "both" : "front";
+Json toJson(const Sides& sides) {
+    return nameOf(sides);
+}
+
+Json toJson(const Emission& emission) {
+    if (!emission.any()) return nullptr;
+    return {{"invisible", toJson(emission.invisible)},
+            {"visible", toJson(emission.visible)},
+            {"sides", nameOf(emission.sides)}};
+}
+
+Json toJson(const std::optional<Reflectance>& reflectance) {
+    if (!reflectance) return nullptr;
+    return describeReflectance(*reflectance);
 }
 
 Json materialsOf(const Scene& scene) {
@@ -55,18 +67,8 @@ Json materialsOf(const Scene& scene) {
     Json materials = Json::array();
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        Json entry = {{"name", material.name},
-                      {"triangles", triangles[i]},
-                      {"diffuse", toJson(material.diffuse)},
-                      {"sides", nameOf(material.sides)}};
-        entry["emission"] = nullptr;
-        if (material.emission.any()) {
-            entry["emission"] = {{"invisible", toJson(material.emission.invisible)},
-                                 {"visible", toJson(material.emission.visible)},
-                                 {"sides", nameOf(material.emission.sides)}};
-        }
-        entry["reflectance"] = nullptr;
-        if (material.reflectance) entry["reflectance"] = describeReflectance(*material.reflectance);
+        Json entry = {{"name", material.name}, {"triangles", triangles[i]}};
+        forEachField(material, [&](const char* name, const auto& field) { entry[name] = toJson(field); });
         materials.push_back(std::move(entry));
     }
     return materials;

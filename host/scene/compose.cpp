@@ -16,26 +16,6 @@ namespace duolux {
 
 namespace {
 
-template <typename T>
-void appendBytes(std::string& key, const T& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-/// All that a material is, as a key.
-std::string keyOf(const Material& material) {
-    std::string key;
-    appendBytes(key, material.diffuse);
-    appendBytes(key, material.sides);
-    appendBytes(key, material.emission.invisible);
-    appendBytes(key, material.emission.visible);
-    appendBytes(key, material.emission.sides);
-    if (material.reflectance) {
-        appendBytes(key, material.reflectance->opaque);
-        appendBytes(key, material.reflectance->transparent);
-    }
-    return key + material.name;
-}
-
 void appendGeometry(Geometry& to, Geometry from) {
     if (to.triangles.empty()) {
         to = std::move(from);
@@ -103,12 +83,12 @@ bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneO
 
 Composer::Composer(Scene& scene) : scene_(scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        materials_.try_emplace(keyOf(scene.materials[i]), static_cast<std::uint32_t>(i));
+        materials_.try_emplace(scene.materials[i], static_cast<std::uint32_t>(i));
 }
 
 std::uint32_t Composer::indexOf(const Material& material) {
     const auto next = static_cast<std::uint32_t>(scene_.materials.size());
-    const auto [entry, isNew] = materials_.try_emplace(keyOf(material), next);
+    const auto [entry, isNew] = materials_.try_emplace(material, next);
     if (isNew) scene_.materials.push_back(material);
     return entry->second;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "host/scene/hash.h"
 #include "host/scene/mesh.h"
 #include "host/scene/scene.h"
 
@@ -55,7 +56,7 @@ class Composer {
     };
 
     Scene& scene_;
-    std::unordered_map<std::string, std::uint32_t> materials_;  ///< by all that they are
+    std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
     std::map<std::filesystem::path, LeftOut> leftOut_;
 };
 

@@ -2,12 +2,22 @@
 
 #include <string>
 
+#include "host/base/hash.h"
 #include "host/scene/scene.h"
 
 namespace duolux {
 
-/// 16 hex digits over everything the image depends on but the render settings: geometry, materials,
-/// reflectances, camera and display row. Names, warnings and the file do not count.
+/// 16 hexadecimal digits over everything that the image depends on but RenderSettings.
 std::string hashScene(const Scene& scene);
+
+void addTo(Hasher& hasher, const glm::vec3& value);
+void addTo(Hasher& hasher, const Sides& value);
+void addTo(Hasher& hasher, const Reflectance& value);
+void addTo(Hasher& hasher, const Emission& value);
+
+/// By all its fields, name included: equal materials have equal hashes.
+struct MaterialHash {
+    std::size_t operator()(const Material& material) const;
+};
 
 }  // namespace duolux

@@ -4,6 +4,10 @@
 
 namespace duolux {
 
+const char* nameOf(Sides sides) {
+    return sides == Sides::kBoth ? "both" : "front";
+}
+
 const char* nameOf(CameraType type) {
     return type == CameraType::kOrthographic ? "orthographic" : "perspective";
 }

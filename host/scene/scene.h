@@ -4,33 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "host/scene/reflectance.h"
+#include "host/scene/material.h"
 
 namespace duolux {
-
-enum class Sides : std::uint8_t { kFront, kBoth };
-
-/// Radiance that a surface emits, in W sr^-1 m^-2 (scene units), components >= 0 (paper, eq. 9).
-struct Emission {
-    glm::vec3 invisible{0.0f};
-    glm::vec3 visible{0.0f};
-    Sides sides = Sides::kFront;
-
-    bool any() const { return glm::any(glm::greaterThan(invisible + visible, glm::vec3(0.0f))); }
-};
-
-/// f_opaque and what the surface emits. Today's BSDF is diffuse: f_opaque = diffuse / pi.
-struct Material {
-    std::string name;
-    glm::vec3 diffuse{0.8f};     ///< albedo per channel, 0..1
-    Sides sides = Sides::kBoth;  ///< kFront: f_opaque acts only on the side the winding makes the front
-    Emission emission;
-    std::optional<Reflectance> reflectance;  ///< overrides the scene's reflectance if set
-};
 
 /// Triangles in world space. Counter-clockwise winding, seen from the front.
 struct Geometry {
