@@ -103,9 +103,9 @@ AccelerationStructure buildStructure(const Device& device, const Buffer& buffer,
     return {device, buffer, indices, parts};
 }
 
-Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitters) {
-    WideBvh all = cachedWideBvh(geometry);
-    Trees trees{std::move(all.nodes), std::move(all.pairs), 0};
+/// The tree over all triangles, and one over the emitters behind it.
+Trees joinTrees(const Geometry& geometry, const WideBvh& all, std::span<const std::uint32_t> emitters) {
+    Trees trees{all.nodes, all.pairs, 0};
     if (emitters.empty()) return trees;
     const WideBvh second = cachedWideBvh(geometry, emitters);
     trees.emitterRoot = static_cast<std::uint32_t>(trees.nodes.size());
@@ -117,6 +117,29 @@ Trees buildTrees(const Geometry& geometry, std::span<const std::uint32_t> emitte
     }
     trees.pairs.insert(trees.pairs.end(), second.pairs.begin(), second.pairs.end());
     return trees;
+}
+
+std::vector<std::uint32_t> emittingTriangles(const Scene& scene) {
+    const Geometry& geometry = scene.geometry;
+    std::vector<std::uint32_t> emitters;
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
+        if (scene.materials[geometry.materials[i]].emission.any()) emitters.push_back(i);
+    }
+    return emitters;
+}
+
+/// The separate tree over emitters serves only rays that no surface blocks.
+bool needsEmitterTree(const TransportTraits& traits, std::span<const std::uint32_t> emitters) {
+    return traits.transmittance == shared::kTransmittanceIdentity && !emitters.empty();
+}
+
+LightTable lightTableOf(const Scene& scene, const TransportTraits& traits) {
+    return buildLightTable(scene, traits.secondColumn || scene.render.integrator == Integrator::kLight);
+}
+
+bool hasClosedForm(const TransportTraits& traits, bool smoothNormals, std::size_t lights) {
+    return traits.transmittance == shared::kTransmittanceIdentity && !smoothNormals && lights > 0 &&
+           lights <= kMostClosedFormLights;
 }
 
 /// For each triangle of the scene, its index in device memory (or that of a copy).
@@ -177,9 +200,9 @@ std::vector<shared::DeviceMaterial> deviceMaterials(const Scene& scene, const Li
 }  // namespace
 
 std::vector<Binding> DeviceScene::treeBindings() const {
-    const Binding tree = structure ? Binding{shared::kBindingNodes, nullptr, structure->handle()}
-                                   : Binding{shared::kBindingNodes, &nodes};
-    return {tree, {shared::kBindingTriangles, &triangles}};
+    const Binding nodesBinding = structure ? Binding{shared::kBindingNodes, nullptr, structure->handle()}
+                                           : Binding{shared::kBindingNodes, &nodes};
+    return {nodesBinding, {shared::kBindingTriangles, &triangles}};
 }
 
 std::uint64_t DeviceScene::deviceBytes() const {
@@ -197,24 +220,24 @@ void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Sc
                     device.driver, device.memoryBytes >> 20));
 }
 
-DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice) {
+namespace {
+
+/// All but the tree over all triangles, which took `buildSeconds` to build.
+DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoice& choice, WideBvh tree,
+                     double buildSeconds) {
     const Geometry& geometry = scene.geometry;
     const TransportTraits traits = analyseTransport(scene);
     Tuning tuning = chooseTuning(device.info(), choice);
     const bool rayQueries = tuning.layout == Layout::kRayQuery;
 
     auto start = std::chrono::steady_clock::now();
-    std::vector<std::uint32_t> emitters;
-    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-        if (scene.materials[geometry.materials[i]].emission.any()) emitters.push_back(i);
-    }
-    // The separate tree over emitters serves only rays that no surface blocks.
-    const bool lightPaths = scene.render.integrator == Integrator::kLight;
-    const bool ownTree = traits.transmittance == shared::kTransmittanceIdentity && !lightPaths;
-    const std::vector<std::uint32_t> inOwnTree = ownTree ? emitters : std::vector<std::uint32_t>{};
-    const Trees trees = rayQueries ? listTriangles(geometry, inOwnTree) : buildTrees(geometry, inOwnTree);
+    std::vector<std::uint32_t> emitters = emittingTriangles(scene);
+    const bool emitterTree = needsEmitterTree(traits, emitters);
+    const std::span<const std::uint32_t> inTree =
+        emitterTree ? std::span<const std::uint32_t>(emitters) : std::span<const std::uint32_t>();
+    const Trees trees = rayQueries ? listTriangles(geometry, inTree) : joinTrees(geometry, tree, inTree);
     tuning.layout = layoutThatFits(device.info(), tuning.layout, choice, trees.largestBuffer());
-    const double buildSeconds = secondsSince(start);
+    buildSeconds += secondsSince(start);
 
     start = std::chrono::steady_clock::now();
     const SurfacePlanes surfaces(scene);
@@ -234,7 +257,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
             normals[2 * i + 1] = deviceNormals(geometry, pair.second, corners.turns[1]);
         }
     });
-    LightTable table = buildLightTable(scene, traits.secondColumn || lightPaths);
+    LightTable table = lightTableOf(scene, traits);
     if (surfaces.used()) {
         const std::vector<std::uint32_t> places = deviceTriangles(trees, geometry.triangles.size());
         for (std::size_t i = 0; i < table.lights.size(); ++i) {
@@ -255,12 +278,12 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
     const Use treeUse = tuning.layout == Layout::kStorage ? Use::kStorage : Use::kTexels;
     DeviceScene out{
         .traits = traits,
+        .choice = choice,
         .tuning = tuning,
         .hasEmitters = !emitters.empty(),
         .hasSmoothNormals = !normals.empty(),
         .hasPlanes = surfaces.used(),
-        .closedFormApplies = traits.transmittance == shared::kTransmittanceIdentity && normals.empty() &&
-                             !table.lights.empty() && table.lights.size() <= kMostClosedFormLights,
+        .closedFormApplies = hasClosedForm(traits, !normals.empty(), table.lights.size()),
         .lightCount = static_cast<std::uint32_t>(table.lights.size()),
         .emitterRoot = trees.emitterRoot,
         .emitterBounds = widenedBounds(geometry, emitters),
@@ -275,6 +298,9 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
                                                             deviceMaterials(scene, table), "materials"),
         .lights = Buffer::upload<shared::DeviceLight>(device, Use::kTexels, table.lights, "lights"),
         .planes = Buffer::upload<glm::vec4>(device, Use::kTexels, planes, "planes"),
+        .tree = std::move(tree),
+        .emitters = std::move(emitters),
+        .hasEmitterTree = emitterTree,
     };
     out.uploadSeconds = secondsSince(start);
     if (rayQueries) {
@@ -283,6 +309,39 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
         out.buildSeconds += secondsSince(start);
     }
     return out;
+}
+
+}  // namespace
+
+DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice) {
+    const auto start = std::chrono::steady_clock::now();
+    WideBvh tree;
+    if (chooseTuning(device.info(), choice).layout != Layout::kRayQuery) tree = cachedWideBvh(scene.geometry);
+    return assemble(device, scene, choice, std::move(tree), secondsSince(start));
+}
+
+void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene) {
+    const TransportTraits traits = analyseTransport(scene);
+    std::vector<std::uint32_t> emitters = emittingTriangles(scene);
+    // Emitters are in a tree of their own, and first among surfaces that coincide.
+    const bool sameTriangles = deviceScene.hasEmitterTree == needsEmitterTree(traits, emitters) &&
+                               emitters == deviceScene.emitters && !deviceScene.hasPlanes;
+    if (!sameTriangles) {
+        deviceScene = assemble(device, scene, deviceScene.choice, std::move(deviceScene.tree), 0.0);
+        return;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const LightTable table = lightTableOf(scene, traits);
+    deviceScene.traits = traits;
+    deviceScene.closedFormApplies = hasClosedForm(traits, deviceScene.hasSmoothNormals, table.lights.size());
+    deviceScene.lightCount = static_cast<std::uint32_t>(table.lights.size());
+    deviceScene.brightestEmission = brightestEmission(scene);
+    deviceScene.materials = Buffer::upload<shared::DeviceMaterial>(
+        device, BufferUse::kTexels, deviceMaterials(scene, table), "materials");
+    deviceScene.lights =
+        Buffer::upload<shared::DeviceLight>(device, BufferUse::kTexels, table.lights, "lights");
+    deviceScene.buildSeconds = 0.0;
+    deviceScene.uploadSeconds = secondsSince(start);
 }
 
 }  // namespace duolux

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/bvh/wide_bvh.h"
 #include "host/gpu/transport.h"
 #include "host/gpu/tuning.h"
 #include "host/scene/scene.h"
@@ -20,6 +21,7 @@ inline constexpr std::size_t kMostClosedFormLights = 16;
 /// A scene in device memory, in the records of shaders/shared.
 struct DeviceScene {
     TransportTraits traits;
+    TuningChoice choice;  ///< as it was asked for
     Tuning tuning;
     bool hasEmitters = false;  ///< some triangle emits; then there is a tree over the emitting ones
     bool hasSmoothNormals = false;
@@ -37,7 +39,11 @@ struct DeviceScene {
     Buffer triangles, normals, materials, lights, planes;
     std::optional<AccelerationStructure> structure{};  ///< with Layout::kRayQuery
 
-    /// The bindings that the traversal needs.
+    WideBvh tree;                         ///< over all triangles, on the host; empty with Layout::kRayQuery
+    std::vector<std::uint32_t> emitters;  ///< triangles that emit
+    bool hasEmitterTree = false;
+
+    /// What the traversal needs.
     std::vector<Binding> treeBindings() const;
     std::uint64_t deviceBytes() const;
 };
@@ -49,5 +55,9 @@ void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Sc
 /// Builds the trees and uploads the scene. Throws MachineError if it does not fit the device, and UsageError
 /// if the device does not support the requested tuning.
 DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice = {});
+
+/// Brings the device up to date with a scene of the same geometry whose materials, reflectances and render
+/// settings may be others. The tree over all triangles is not built again. Throws as uploadScene.
+void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene);
 
 }  // namespace duolux

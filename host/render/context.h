@@ -14,7 +14,7 @@ struct RenderContext {
     Device& device;
     const Scene& scene;
     const RenderControl& control;
-    DeviceScene deviceScene;
+    const DeviceScene& deviceScene;
     Film film;
     RenderStatistics statistics;
     /// Displayed radiance of paths with the largest number of scattering events, and with one fewer: sums
@@ -53,6 +53,10 @@ struct RenderContext {
     /// Throws because the driver ended the loops of a dispatch in which each lane had a single path.
     [[noreturn]] void failCutShort() const;
 };
+
+/// Renders a scene that is on the device: duolux::render but for the upload.
+RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScene& deviceScene,
+                            const RenderControl& control);
 
 /// Path tracer: traces all samples of all pixels.
 void gather(RenderContext& context);

@@ -102,16 +102,6 @@ bool RenderStatistics::cutOffByBounces() const {
 
 namespace {
 
-DeviceScene upload(const Device& device, const Scene& scene, const TuningChoice& tuning) {
-    try {
-        return uploadScene(device, scene, tuning);
-    } catch (const std::bad_alloc&) {
-        throw outOfMemory(fmt::format("{}: cannot build trees over {} triangles", scene.source.string(),
-                                      scene.geometry.triangles.size()),
-                          "expected fewer triangles, or more memory");
-    }
-}
-
 /// The film of a render; the integrator sets its quantum.
 Film makeFilm(const RenderSettings& settings) {
     try {
@@ -144,9 +134,9 @@ void trace(RenderContext& context) {
 
 }  // namespace
 
-RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {
-    DeviceScene deviceScene = upload(device, scene, control.tuning);
-    RenderContext context{device, scene, control, std::move(deviceScene), makeFilm(scene.render), {}};
+RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScene& deviceScene,
+                            const RenderControl& control) {
+    RenderContext context{device, scene, control, deviceScene, makeFilm(scene.render), {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;
         assert(state.film.width() == scene.render.width && state.film.height() == scene.render.height);

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "host/gpu/device_scene.h"
+#include "host/render/render.h"
+#include "host/scene/scene.h"
+
+namespace duolux {
+
+/// A scene on a device, to be rendered many times: with other cameras, settings, reflectances and emitters.
+/// Triangles are uploaded, and their tree is built, once.
+class Renderer {
+  public:
+    /// `device` must outlive this. Throws as uploadScene.
+    Renderer(Device& device, Scene scene, const TuningChoice& tuning = {});
+
+    const Scene& scene() const { return scene_; }
+
+    void setCamera(const Camera& camera) { scene_.camera = camera; }
+    void setDisplay(glm::vec2 display) { scene_.display = display; }
+    void setSettings(const RenderSettings& settings);
+    /// The scene-wide one.
+    void setReflectance(const Reflectance& reflectance);
+    /// As many as there are. What emits may change, too.
+    void setMaterials(std::vector<Material> materials);
+
+    /// The same bits as duolux::render of the same scene, whatever was rendered before. `control.tuning` has
+    /// no meaning here. Throws as that.
+    RenderOutput render(const RenderControl& control = {});
+
+  private:
+    Device& device_;
+    Scene scene_;
+    DeviceScene deviceScene_;
+    bool upToDate_ = true;  ///< the device knows of the materials
+};
+
+}  // namespace duolux

@@ -1,0 +1,119 @@
+#include "host/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "tests/statistical/films.h"
+#include "tests/support/cornell.h"
+#include "tests/support/device.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/tunings.h"
+
+// A scene that is uploaded once gives the same pictures as scenes that are uploaded for each.
+
+namespace duolux::test {
+namespace {
+
+class RendererTest : public testing::Test {
+  protected:
+    static Scene small(Scene scene) {
+        scene.render.width = 21;
+        scene.render.height = 15;
+        scene.render.spp = 3;
+        scene.render.bounces = 4;
+        return scene;
+    }
+
+    static void expectSame(Renderer& renderer, const TuningChoice& tuning, const std::string& what) {
+        RenderControl control;
+        control.tuning = tuning;
+        const RenderOutput expected = render(device(), renderer.scene(), control);
+        const RenderOutput output = renderer.render();
+        EXPECT_TRUE(sameBits(output.film, expected.film)) << what << ", " << nameOf(tuning);
+        EXPECT_EQ(output.statistics.directLightInClosedForm, expected.statistics.directLightInClosedForm);
+        EXPECT_EQ(output.statistics.effectiveBounces, expected.statistics.effectiveBounces);
+        EXPECT_GT(output.statistics.meanRadiance, 0.0) << what;
+    }
+
+    static void goThroughChanges(Scene scene, const TuningChoice& tuning) {
+        Renderer renderer(device(), std::move(scene), tuning);
+        expectSame(renderer, tuning, "first");
+
+        Camera camera = renderer.scene().camera;
+        camera.position += glm::vec3(30, -20, 10);
+        renderer.setCamera(camera);
+        expectSame(renderer, tuning, "another camera");
+        camera.type = CameraType::kOrthographic;
+        camera.height = 500.0f;
+        renderer.setCamera(camera);
+        expectSame(renderer, tuning, "another kind of camera");
+
+        for (const char* preset : {"shadowless", "one-bounce", "local", "global"}) {
+            renderer.setReflectance(*presetReflectance(preset));
+            expectSame(renderer, tuning, preset);
+        }
+
+        RenderSettings settings = renderer.scene().render;
+        settings.integrator = Integrator::kLight;
+        settings.width = 17;
+        settings.seed = 5;
+        renderer.setSettings(settings);
+        expectSame(renderer, tuning, "light paths");
+        renderer.setReflectance(*presetReflectance("shadowless"));
+        expectSame(renderer, tuning, "light paths through everything");
+        settings.integrator = Integrator::kPath;
+        settings.bounces = 2;
+        renderer.setSettings(settings);
+        renderer.setDisplay({1, 0});
+        expectSame(renderer, tuning, "fewer bounces, the other component");
+
+        std::vector<Material> materials = renderer.scene().materials;
+        for (Material& material : materials) {
+            material.emission.invisible *= 2.0f;
+            material.diffuse *= 0.5f;
+        }
+        renderer.setMaterials(materials);
+        expectSame(renderer, tuning, "brighter emitters");
+        materials.front().emission = {glm::vec3(3.0f), glm::vec3(1.0f), Sides::kBoth};
+        renderer.setMaterials(materials);
+        expectSame(renderer, tuning, "another emitter");
+        for (Material& material : materials)
+            material.reflectance = *presetReflectance("local");
+        renderer.setMaterials(materials);
+        expectSame(renderer, tuning, "reflectances of materials");
+    }
+};
+
+TEST_F(RendererTest, GivesTheSameBitsAfterAnyChange) {
+    for (const TuningChoice& tuning : allTunings(device().info()))
+        goThroughChanges(small(cornellBox()), tuning);
+}
+
+/// Emitters come first where surfaces coincide, so that their order depends on what emits.
+TEST_F(RendererTest, GivesTheSameBitsWhereSurfacesCoincide) {
+    Scene scene = small(cornellBox());
+    Geometry& geometry = scene.geometry;
+    const std::size_t triangles = geometry.triangles.size();
+    for (std::size_t i = 0; i < triangles; ++i) {
+        geometry.triangles.push_back(geometry.triangles[i]);
+        geometry.materials.push_back(geometry.materials[(i + 2) % triangles]);
+    }
+    goThroughChanges(scene, {});
+}
+
+TEST_F(RendererTest, BuildsTheTreeOnce) {
+    Renderer renderer(device(), small(cornellBox()));
+    EXPECT_GT(renderer.render().statistics.buildSeconds, 0.0);
+    renderer.setReflectance(*presetReflectance("one-bounce"));
+    EXPECT_EQ(renderer.render().statistics.buildSeconds, 0.0);
+    std::vector<Material> materials = renderer.scene().materials;
+    for (Material& material : materials)
+        material.emission.invisible *= 0.5f;
+    renderer.setMaterials(materials);
+    EXPECT_EQ(renderer.render().statistics.buildSeconds, 0.0);
+}
+
+}  // namespace
+}  // namespace duolux::test
