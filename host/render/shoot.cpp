@@ -34,7 +34,7 @@ class Shooter {
 
   private:
     static constexpr std::uint32_t kMaxPaths = 1u << 18;  // of one dispatch
-    static constexpr std::uint32_t kFirstPaths = 2048;    // before any speed is known
+    static constexpr std::uint32_t kFirstPaths = 512;     // before any speed is known
     static constexpr std::uint32_t kMostDispatches = 16;  // of one batch: a second or two
     // Of one batch: the largest mean that a pixel may have (2^58 quanta a path) then fits 63 bits.
     static constexpr std::uint64_t kMostPathsPerPixel = 32;
@@ -84,8 +84,7 @@ class Shooter {
         return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
             FirstLook look;
             while (look.samples < kPaths) {
-                const auto count = static_cast<std::uint32_t>(
-                    std::min<std::uint64_t>({kernel.maxPaths(), kFirstPaths, kPaths - look.samples}));
+                const std::uint32_t count = dispatchPaths(kernel, kPaths - look.samples);
                 kernel.submit(0, {look.samples, count}, quantum);
                 const LightKernel::Results results = kernel.wait(0);
                 context_.received(results.deviceSeconds, count);
