@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "host/app/info_json.h"
 #include "host/view/darkness.h"
 
 namespace duolux {
@@ -16,21 +17,23 @@ namespace {
 constexpr double kLitPart = 0.01;
 constexpr float kDarkestGrey = 1.0f / (255.0f * 12.92f);  // sRGB code 1 of 255, linear
 
-std::string point(const glm::vec3& p) {
-    return fmt::format("{:.6g},{:.6g},{:.6g}", p.x, p.y, p.z);
+/// As options take it: in the coordinates of the file.
+std::string point(const Scene& scene, const glm::vec3& place) {
+    const glm::dvec3 p = placeInFile(scene, place);
+    return fmt::format("{},{},{}", p.x, p.y, p.z);
 }
 
-std::string describe(const DarkReason& reason) {
-    const std::string position = "--camera-position " + point(reason.better.position);
-    const std::string lookAt = "--look-at " + point(reason.better.target);
+std::string describe(const Scene& scene, const DarkReason& reason) {
+    const std::string position = "--camera-position " + point(scene, reason.better.position);
+    const std::string lookAt = "--look-at " + point(scene, reason.better.target);
     switch (reason.darkness) {
         case Darkness::kNothingEmits:
             return "nothing emits light; --lamp adds a lamp";
         case Darkness::kLooksPast:
             return fmt::format(
-                "the camera looks past the scene, which covers {:.1f} % of the picture; try {}, or "
-                "a smaller --vfov",
-                100.0f * reason.filled, lookAt);
+                "the camera looks past the scene, or from too far away: it covers {:.1f} % of the picture; "
+                "try {} {}",
+                100.0f * reason.filled, position, lookAt);
         case Darkness::kOnlyEmitters:
             return "the camera sees only emitters, and they emit no visible light";
         case Darkness::kNoBounces:
@@ -111,7 +114,7 @@ std::string darkPictureWarning(const Scene& scene, const ImageRows& rows, float 
         });
         if (said) return {};
     }
-    return dark + describe(reason);
+    return dark + describe(scene, reason);
 }
 
 }  // namespace duolux

@@ -218,6 +218,17 @@ RenderOutput renderWhatCanBe(Device& device, const Scene& scene, const RenderCon
     }
 }
 
+/// A name that was mistyped must not cost a picture.
+void requireNoOtherFile(const std::string& checkpoint) {
+    std::error_code ec;
+    if (checkpoint.empty() || !std::filesystem::is_regular_file(checkpoint, ec)) return;
+    if (std::filesystem::file_size(checkpoint, ec) == 0 || isCheckpoint(checkpoint)) return;
+    throw UsageError(
+        fmt::format("--checkpoint {}: is another kind of file; expected a checkpoint to "
+                    "replace, or a new name",
+                    checkpoint));
+}
+
 void runRender(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     std::vector<std::string> outputs = options.outputs;
@@ -228,6 +239,7 @@ void runRender(const RenderOptions& options) {
     if (!options.report.empty() && options.report != "-")
         files.push_back({"--report", options.report, false});
     if (!options.checkpoint.empty()) files.push_back({"--checkpoint", options.checkpoint, false});
+    requireNoOtherFile(options.checkpoint);
     // A checkpoint may replace the one from which the render resumes.
     checkOutputs(files,
                  {options.scene, isSameFile(options.resume, options.checkpoint) ? "" : options.resume});

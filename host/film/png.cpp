@@ -135,7 +135,11 @@ std::string essentialChunks(std::string_view bytes, const std::string& file) {
                           kAround = 12;  // length and type before the data of a chunk, CRC after
     constexpr std::array<std::string_view, 10> kEssential{"IHDR", "PLTE", "IDAT", "IEND", "tRNS",
                                                           "gAMA", "cHRM", "sRGB", "sBIT", "iCCP"};
-    std::string out(bytes.substr(0, kSignature));
+    constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", kSignature);
+    if (!bytes.starts_with(kPng)) {
+        throw InputError(file, "", "is not a PNG image, whatever its name says", "expected a PNG image");
+    }
+    std::string out(kPng);
     std::uint64_t imageBytes = 0;  // compressed
     std::string_view header;
     for (std::size_t at = kSignature; at + kAround <= bytes.size();) {

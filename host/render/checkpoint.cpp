@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/hash.h"
 #include "host/base/memory.h"
 #include "host/base/version.h"
 
@@ -18,40 +21,8 @@ namespace {
 // The file: kMagic, the length of the header as uint32, the header (JSON), samples per pixel (uint32), sums
 // of pixels, sums of light paths if there are any (six int64 a pixel each), and a checksum of all before it
 // (uint64). Little-endian, as all hosts are.
-constexpr char kMagic[9] = "DUOLUXC2";
+constexpr char kMagic[9] = "DUOLUXC3";
 constexpr std::size_t kMagicBytes = 8;
-
-/// FNV-1a over 64-bit words (Fowler, Noll, Vo), the last one filled up with zeros: against damage, not
-/// malice.
-class Checksum {
-  public:
-    void add(std::string_view bytes) {
-        while (!bytes.empty()) {
-            for (; filled_ == 0 && bytes.size() >= sizeof word_; bytes.remove_prefix(sizeof word_)) {
-                std::memcpy(&word_, bytes.data(), sizeof word_);
-                hash_ = hashWith(word_);
-            }
-            if (filled_ == 0) word_ = 0;
-            const std::size_t taken = std::min(sizeof word_ - filled_, bytes.size());
-            std::memcpy(reinterpret_cast<char*>(&word_) + filled_, bytes.data(), taken);
-            bytes.remove_prefix(taken);
-            filled_ += taken;
-            if (filled_ < sizeof word_) return;
-            hash_ = hashWith(word_);
-            filled_ = 0;
-        }
-    }
-    std::uint64_t value() const { return filled_ > 0 ? hashWith(word_) : hash_; }
-
-  private:
-    std::uint64_t hashWith(std::uint64_t word) const {
-        const std::uint64_t hash = (hash_ ^ word) * 0x100000001b3ull;
-        return hash ^ hash >> 32;
-    }
-
-    std::uint64_t hash_ = 0xcbf29ce484222325ull, word_ = 0;
-    std::size_t filled_ = 0;  // bytes of word_
-};
 
 template <typename T>
 std::string_view bytesOf(std::span<const T> items) {
@@ -165,7 +136,7 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
     const std::string header = headerOf(origin, film, statistics);
     const auto headerBytes = static_cast<std::uint32_t>(header.size());
     writeFileAtomically(path, [&](FileWriter& file) {
-        Checksum checksum;
+        Hasher checksum;
         for (const std::string_view part :
              {std::string_view(kMagic, kMagicBytes), bytesOf(std::span(&headerBytes, 1)),
               std::string_view(header), bytesOf(film.samples()), bytesOf(film.sums()),
@@ -173,7 +144,7 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
             checksum.add(part);
             file.write(part);
         }
-        const std::uint64_t sum = checksum.value();
+        const std::uint64_t sum = checksum.digest();
         file.write(bytesOf(std::span(&sum, 1)));
     });
 }
@@ -193,9 +164,9 @@ Checkpoint read(const std::filesystem::path& path) {
     if (bytes[kMagicBytes - 1] != kMagic[kMagicBytes - 1]) fail("is a checkpoint of another version");
     const std::string_view content(bytes.data(), bytes.size() - sizeof sum);
     std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
-    Checksum checksum;
+    Hasher checksum;
     checksum.add(content);
-    if (sum != checksum.value()) fail("is damaged or incomplete: its checksum is wrong");
+    if (sum != checksum.digest()) fail("is damaged or incomplete: its checksum is wrong");
     try {
         return parse(bytes, [&] { fail("is damaged: its parts do not fit"); });
     } catch (const nlohmann::json::exception&) {
@@ -205,6 +176,13 @@ Checkpoint read(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool isCheckpoint(const std::filesystem::path& path) {
+    constexpr std::string_view kAnyVersion(kMagic, kMagicBytes - 1);
+    std::array<char, kAnyVersion.size()> start{};
+    std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+    return std::string_view(start.data(), start.size()) == kAnyVersion;
+}
 
 Checkpoint readCheckpoint(const std::filesystem::path& path) {
     return withMemoryToRead(path, [&] { return read(path); });

@@ -31,6 +31,9 @@ FilmOrigin originOf(const Scene& scene, std::uint32_t firstSample, bool directLi
 void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin, const Film& film,
                      const RenderStatistics& statistics);
 
+/// The file begins as a checkpoint does, of any version.
+bool isCheckpoint(const std::filesystem::path& path);
+
 /// Throws InputError if the file cannot be read, is no checkpoint, is of another version or damaged.
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 

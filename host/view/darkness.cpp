@@ -63,8 +63,11 @@ class Inspection {
     Camera automaticCamera() const {
         CameraChoice choice;
         choice.up = glm::dvec3(scene_.camera.up);
-        const Illumination illumination(surface_);
-        return frameCamera(choice, surface_, ViewSamples(surface_, illumination), aspectOf(scene_.render));
+        // Of what the files hold, without a lamp that was added.
+        const std::size_t content = scene_.content.triangles;
+        const Surface surface(scene_, content > 0 ? content : scene_.geometry.triangles.size());
+        const Illumination illumination(surface);
+        return frameCamera(choice, surface, ViewSamples(surface, illumination), aspectOf(scene_.render));
     }
 
     /// Whether any surface can turn the emitted component into visible light.

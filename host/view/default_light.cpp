@@ -58,7 +58,9 @@ std::optional<Place> openPlace(const Surface& surface, const Camera& camera, flo
     lookThrough(camera, aspect, surface, [&](const SurfacePoint& point, std::uint32_t) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             const glm::vec3 lamp = surface.toLocal(glm::dvec3(places[i].centre));
-            cosines[i] += std::max(0.0f, glm::dot(point.normal, glm::normalize(lamp - point.position)));
+            const float cosine = glm::dot(point.normal, glm::normalize(lamp - point.position));
+            if (cosine > 0.0f && surface.sees(point.position + kOffset * point.normal, lamp, point.triangle))
+                cosines[i] += cosine;
         }
     });
     const float most = *std::max_element(cosines.begin(), cosines.end());

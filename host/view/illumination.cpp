@@ -9,7 +9,6 @@ namespace duolux {
 namespace {
 
 constexpr int kScatterings = 4;
-constexpr float kOffset = 1e-5f;  // in units of the scene's radius
 
 float mean(const glm::vec3& channels) {
     return (channels.x + channels.y + channels.z) / 3.0f;

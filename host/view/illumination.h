@@ -16,6 +16,9 @@ struct SurfacePoint {
     bool front;
 };
 
+/// How far ahead of a surface rays begin, in units of the scene's radius.
+inline constexpr float kOffset = 1e-5f;
+
 /// The point of a ray's hit, on the side from which the ray comes.
 SurfacePoint pointOf(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction,
                      const Surface::Hit& hit);

@@ -101,7 +101,7 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
     }
     View view(scene, read.framedTriangles);
     view.frame(camera);
-    const char* const out = "a lamp is added above the camera, out of view";
+    const char* const out = "a lamp is added near the camera, out of view";
     if (choices.lamp == Lamp::kAlways) {
         view.addLamp();
     } else if (!mayAddLamp) {

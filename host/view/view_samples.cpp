@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kSamples = 768;
 constexpr int kPaths = 2;  // for each side of a sample
-constexpr float kOffset = 1e-5f;
 
 /// Spreads `count` points evenly over the area of the triangles that a camera should show.
 std::vector<SurfacePoint> spread(const Surface& surface, std::size_t count) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
 
 #include "tests/cli/run_duolux.h"
 
@@ -51,11 +52,24 @@ TEST_P(CheckpointCommands, MergeOfPartsIsTheWhole) {
     EXPECT_FALSE(exists("none.exr"));
 }
 
+TEST_P(CheckpointCommands, OtherFilesAreNotReplaced) {
+    std::ofstream(folder_.path() / "mine.txt") << "notes";
+    const ProgramResult result = render({"--spp", "1", "--checkpoint", "mine.txt", "-o", "a.png"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("--checkpoint mine.txt: is another kind of file"));
+    EXPECT_EQ(std::filesystem::file_size(folder_.path() / "mine.txt"), 5u);
+    EXPECT_FALSE(exists("a.png"));
+}
+
 TEST_P(CheckpointCommands, AnInterruptedRenderGoesOnAsIfNothingHadHappened) {
-    const ProgramResult interruptedRender =
-        render({"--spp", "100000", "--checkpoint", "state", "-o", "some.png"},
-               ProgramSignal{SIGINT, std::chrono::milliseconds(700)});
-    ASSERT_EQ(interruptedRender.status, 130) << interruptedRender.err;
+    ProgramResult interruptedRender;
+    // As late as it takes for there to be samples: on a busy machine the first ones take seconds.
+    for (auto delay = std::chrono::milliseconds(700); !exists("state") && delay < std::chrono::seconds(60);
+         delay *= 2) {
+        interruptedRender = render({"--spp", "100000", "--checkpoint", "state", "-o", "some.png"},
+                                   ProgramSignal{SIGINT, delay});
+        ASSERT_EQ(interruptedRender.status, 130) << interruptedRender.err;
+    }
     ASSERT_TRUE(exists("state"));
     // A few more samples, with a checkpoint that replaces the resumed one.
     const std::size_t taken =
