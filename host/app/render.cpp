@@ -239,7 +239,6 @@ void runRender(const RenderOptions& options) {
     if (!options.report.empty() && options.report != "-")
         files.push_back({"--report", options.report, false});
     if (!options.checkpoint.empty()) files.push_back({"--checkpoint", options.checkpoint, false});
-    requireNoOtherFile(options.checkpoint);
     // A checkpoint may replace the one from which the render resumes.
     checkOutputs(files,
                  {options.scene, isSameFile(options.resume, options.checkpoint) ? "" : options.resume});
@@ -250,6 +249,7 @@ void runRender(const RenderOptions& options) {
     StageSeconds seconds;
     Scene scene = loadScene(options.scene, choices);
     checkNotRead(files, scene.files);
+    requireNoOtherFile(options.checkpoint);
     overrides.applyTo(scene, options);
     for (const std::string& warning : scene.warnings)
         warn(warning);
