@@ -280,7 +280,6 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         .traits = traits,
         .choice = choice,
         .tuning = tuning,
-        .hasEmitters = !emitters.empty(),
         .hasSmoothNormals = !normals.empty(),
         .hasPlanes = surfaces.used(),
         .closedFormApplies = hasClosedForm(traits, !normals.empty(), table.lights.size()),
@@ -300,7 +299,6 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         .planes = Buffer::upload<glm::vec4>(device, Use::kTexels, planes, "planes"),
         .tree = std::move(tree),
         .emitters = std::move(emitters),
-        .hasEmitterTree = emitterTree,
     };
     out.uploadSeconds = secondsSince(start);
     if (rayQueries) {
@@ -324,7 +322,7 @@ void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scen
     const TransportTraits traits = analyseTransport(scene);
     std::vector<std::uint32_t> emitters = emittingTriangles(scene);
     // Emitters are in a tree of their own, and first among surfaces that coincide.
-    const bool sameTriangles = deviceScene.hasEmitterTree == needsEmitterTree(traits, emitters) &&
+    const bool sameTriangles = (deviceScene.emitterRoot != 0) == needsEmitterTree(traits, emitters) &&
                                emitters == deviceScene.emitters && !deviceScene.hasPlanes;
     if (!sameTriangles) {
         deviceScene = assemble(device, scene, deviceScene.choice, std::move(deviceScene.tree), 0.0);

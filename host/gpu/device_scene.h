@@ -23,7 +23,6 @@ struct DeviceScene {
     TransportTraits traits;
     TuningChoice choice;  ///< as it was asked for
     Tuning tuning;
-    bool hasEmitters = false;  ///< some triangle emits; then there is a tree over the emitting ones
     bool hasSmoothNormals = false;
     bool hasPlanes = false;  ///< distances are computed from stored planes, see SurfacePlanes
     /// Direct light has a closed form: nothing can block an emitter, normals are flat, and there are so few
@@ -41,7 +40,6 @@ struct DeviceScene {
 
     WideBvh tree;                         ///< over all triangles, on the host; empty with Layout::kRayQuery
     std::vector<std::uint32_t> emitters;  ///< triangles that emit
-    bool hasEmitterTree = false;
 
     /// What the traversal needs.
     std::vector<Binding> treeBindings() const;

@@ -15,7 +15,7 @@ std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Sce
     if (deviceScene.lightCount == 0) directLight = shared::kDirectLightNone;
     std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene);
     constants.push_back({shared::kSpecDirectLight, directLight});
-    constants.push_back({shared::kSpecHasEmitters, deviceScene.hasEmitters});
+    constants.push_back({shared::kSpecHasEmitters, !deviceScene.emitters.empty()});
     return constants;
 }
 
