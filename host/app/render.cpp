@@ -216,6 +216,7 @@ void requireNoOtherFile(const std::string& checkpoint) {
 
 void runRender(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
+    requireScenePath(options.scene);
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) outputs.push_back(std::filesystem::path(options.scene).stem().string() + ".png");
     std::vector<OutputFile> files;

@@ -1,5 +1,7 @@
 #include "host/app/render_options.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "host/app/machine_options.h"
@@ -114,7 +116,10 @@ void sortWords(const CLI::App& command, RenderOptions& options) {
         const bool isOutput = !options.outputs.empty() && isImagePath(word);
         (isOutput ? options.outputs : others).push_back(std::move(word));
     }
-    if (others.empty()) throw UsageError("render: expected a SCENE: an .obj or .json file");
+    if (others.empty()) {
+        throw UsageError(
+            fmt::format("render: {} is an image; expected a SCENE: an .obj or .json file", options.scene));
+    }
     options.scene = others.front();
     others.erase(others.begin());
     if (!others.empty()) throw CLI::ExtrasError(command.get_name(), others);

@@ -37,13 +37,16 @@ SceneFile readObjScene(const std::filesystem::path& path, Reading reading) {
     return {std::move(scene), {}, triangles, false, false};
 }
 
-SceneFile readScene(const std::filesystem::path& path, Reading reading) {
+std::string extensionOf(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".obj") return readObjScene(path, reading);
-    if (extension == ".json") return readJsonScene(path, reading);
-    throw InputError(path.string(), "", "has no extension of a scene file", "expected .obj or .json");
+    return extension;
+}
+
+SceneFile readScene(const std::filesystem::path& path, Reading reading) {
+    requireScenePath(path);
+    return extensionOf(path) == ".obj" ? readObjScene(path, reading) : readJsonScene(path, reading);
 }
 
 /// Chooses camera and lamp.
@@ -145,6 +148,12 @@ Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
 }
 
 }  // namespace
+
+void requireScenePath(const std::filesystem::path& path) {
+    const std::string extension = extensionOf(path);
+    if (extension != ".obj" && extension != ".json")
+        throw InputError(path.string(), "", "has no extension of a scene file", "expected .obj or .json");
+}
 
 Scene loadScene(const std::filesystem::path& path, const SceneChoices& choices) {
     return withMemoryToRead(path, [&] { return load(path, choices); });

@@ -28,6 +28,9 @@ struct SceneChoices {
     Reading reading = Reading::kLenient;
 };
 
+/// Throws InputError unless the extension is that of a scene file.
+void requireScenePath(const std::filesystem::path& path);
+
 /// Loads a scene by its extension: .obj (with its MTL; reflectance `global`) or .json (the scene format).
 /// Values that neither the file nor the caller specifies are chosen automatically: missing parts of the
 /// camera, a lamp, and 16 bounces, or kBouncesOfGrowth if light may grow with every bounce. A lamp and

@@ -53,7 +53,7 @@ TEST(NoDriver, SaysWhatToInstallWhereThereIsNone) {
 }
 
 TEST(NoDriver, TooLittleAddressSpaceIsCalledSo) {
-    if (kAddressSanitizer) GTEST_SKIP();
+    if (kAddressSanitizer) GTEST_SKIP() << "AddressSanitizer reserves more address space than any limit here";
     const TemporaryFolder folder;
     const ProgramResult result =
         runProgram("/bin/sh", folder.path(), {"-c", "ulimit -v 120000 && " DUOLUX_EXECUTABLE " devices"});

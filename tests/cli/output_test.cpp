@@ -52,6 +52,15 @@ class Outputs : public testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(Outputs, AnImageInPlaceOfTheSceneIsNamed) {
+    const ProgramResult alone = run({"render", "a.png"});
+    EXPECT_EQ(alone.status, 3);
+    EXPECT_THAT(alone.err, HasSubstr("a.png: has no extension of a scene file"));
+    const ProgramResult withOutput = run({"render", "a.png", "-o", "b.png"});
+    EXPECT_EQ(withOutput.status, 2);
+    EXPECT_THAT(withOutput.err, HasSubstr("render: a.png is an image; expected a SCENE"));
+}
+
 TEST_F(Outputs, MayNotTakeThePlaceOfAnythingThatIsRead) {
     fs::create_symlink("q.mtl", folder_ / "link.part");
     fs::create_hard_link(folder_ / "q.obj", folder_ / "hard.png");

@@ -68,15 +68,20 @@ TEST(PointOnARayIsSeenWhereTheRayCameFrom) {
     EXPECT_NEAR(seen.importance * camera.area * cosine * cosine * cosine * distance * distance, 1.0, 4e-5);
 }
 
+// Beyond one of the four edges, by 2^smallest of the image's size or more.
+vec2 besideImage(uint edge, float smallest) {
+    vec2 inside = randomVec2();
+    float beyond = randomScale(smallest, 6.0);
+    if (edge == 0u) return vec2(-beyond, inside.y);
+    if (edge == 1u) return vec2(1.0 + beyond, inside.y);
+    return vec2(inside.x, edge == 2u ? -beyond : 1.0 + beyond);
+}
+
 // Beyond each of the four edges, and behind: the same points mirrored at the camera.
 TEST(NothingIsSeenBesideTheImageOrBehind) {
     DeviceCamera camera = randomCamera();
-    vec2 inside = randomVec2();
-    float beyond = randomScale(-6.0, 6.0);
-    vec2 beside[4] = vec2[4](vec2(-beyond, inside.y), vec2(1.0 + beyond, inside.y), vec2(inside.x, -beyond),
-                             vec2(inside.x, 1.0 + beyond));
     bool behind = testIndex() % 5u == 4u;
-    vec2 position = (behind ? inside : beside[testIndex() % 5u % 4u]) * imageSize(camera);
+    vec2 position = (behind ? randomVec2() : besideImage(testIndex() % 5u, -6.0)) * imageSize(camera);
     vec3 direction = cameraDirection(camera, position) * (behind ? -1.0 : 1.0);
     CameraConnection seen = connectToCamera(camera, camera.position + direction * randomScale(-2.0, 6.0));
     EXPECT_FALSE(seen.visible);
@@ -142,12 +147,8 @@ TEST(PointOnAnOrthographicRayIsSeenWhereTheRayCameFrom) {
 
 TEST(NothingIsSeenBesideOrBehindAnOrthographicImage) {
     DeviceCamera camera = randomCamera();
-    vec2 inside = randomVec2();
-    float beyond = randomScale(-4.0, 6.0);
-    vec2 beside[4] = vec2[4](vec2(-beyond, inside.y), vec2(1.0 + beyond, inside.y), vec2(inside.x, -beyond),
-                             vec2(inside.x, 1.0 + beyond));
     bool behind = testIndex() % 5u == 4u;
-    CameraRay ray = orthographicRay(camera, (behind ? inside : beside[testIndex() % 5u % 4u]) * imageSize(camera));
+    CameraRay ray = orthographicRay(camera, (behind ? randomVec2() : besideImage(testIndex() % 5u, -4.0)) * imageSize(camera));
     float distance = randomScale(-2.0, 6.0) * (behind ? -1.0 : 1.0) - (behind ? camera.startDepth : 0.0);
     EXPECT_FALSE(connectToOrthographic(camera, ray.origin + ray.direction * distance).visible);
 }
