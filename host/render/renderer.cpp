@@ -53,7 +53,8 @@ RenderOutput Renderer::render(const RenderControl& control) {
 }
 
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {
-    const DeviceScene deviceScene = upload(device, scene, control.tuning);
+    DeviceScene deviceScene = upload(device, scene, control.tuning);
+    deviceScene.tree = {};  // rendered once, it is not changed
     return renderOnDevice(device, scene, deviceScene, control);
 }
 
