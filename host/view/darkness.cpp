@@ -67,7 +67,8 @@ class Inspection {
         const std::size_t content = scene_.content.triangles;
         const Surface surface(scene_, content > 0 ? content : scene_.geometry.triangles.size());
         const Illumination illumination(surface);
-        return frameCamera(choice, surface, ViewSamples(surface, illumination), aspectOf(scene_.render));
+        const ViewSamples samples(surface, illumination);
+        return frameCamera(choice, surface, samples, aspectOf(scene_.render));
     }
 
     /// Whether any surface can turn the emitted component into visible light.

@@ -172,14 +172,14 @@ float brightnessFor(const Camera& camera, float aspect, const Surface& surface,
 }
 
 void addDefaultLight(Scene& scene, const Surface& surface) {
-    const Bounds bounds = boundsOf(scene.geometry);
+    const glm::vec3 lower(surface.bulk().lower), upper(surface.bulk().upper);
     const Camera& camera = scene.camera;
     const glm::vec3 forward = ViewFrame(camera).forward;
 
     // The luminaire lights the middle of the scene, or the target if the camera is inside the scene.
-    const bool inside = glm::all(glm::greaterThan(camera.position, bounds.lower)) &&
-                        glm::all(glm::lessThan(camera.position, bounds.upper));
-    const float ahead = glm::dot(0.5f * (bounds.lower + bounds.upper) - camera.position, forward);
+    const bool inside =
+        glm::all(glm::greaterThan(camera.position, lower)) && glm::all(glm::lessThan(camera.position, upper));
+    const float ahead = glm::dot(0.5f * (lower + upper) - camera.position, forward);
     const float distance = inside || ahead <= 0.0f ? glm::distance(camera.target, camera.position) : ahead;
     const glm::vec3 lit = camera.position + distance * forward;
 

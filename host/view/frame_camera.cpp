@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "host/base/parallel.h"
+#include "host/view/hollows.h"
 #include "host/view/inside_views.h"
 #include "host/view/view_axes.h"
 
@@ -43,6 +44,17 @@ std::vector<glm::dvec3> outermost(const std::vector<glm::dvec3>& points) {
     return outer;
 }
 
+/// An orthographic camera shows the same area as the perspective camera at its target, unless its height is
+/// given.
+Camera asChosen(Camera camera, const CameraChoice& choice) {
+    camera.type = choice.type.value_or(CameraType::kPerspective);
+    if (camera.type == CameraType::kOrthographic) {
+        const float distance = glm::distance(camera.position, camera.target);
+        camera.height = choice.height.value_or(2.0f * distance * std::tan(0.5f * glm::radians(camera.vfov)));
+    }
+    return camera;
+}
+
 class Framer {
   public:
     Framer(const CameraChoice& choice, const Surface& surface, const ViewSamples& samples, float aspect)
@@ -65,12 +77,19 @@ class Framer {
     Camera frame() const {
         if (choice_.position) return fromPosition();
         const View outside = bestOutside();
-        std::optional<InsideView> inside =
-            bestInsideView(surface_, samples_, axes_, aspect_, choice_.vfov, target_, outside.unseen);
-        if (inside && inside->worth > outside.worth) return camera(inside->eye, inside->target, inside->vfov);
+        if (!parallel()) {
+            const EnclosedEmitters lamps(surface_);
+            const std::optional<InsideView> inside = bestInsideView(surface_, samples_, lamps, axes_, aspect_,
+                                                                    choice_.vfov, target_, outside.unseen);
+            // From outside, a room looks like a block, and if all lamps are inside, like a dark one.
+            const float worth = outside.worth * (lamps.all() || outside.block ? 0.2f : 1.0f);
+            if (inside && inside->worth > worth) return camera(inside->eye, inside->target, inside->vfov);
+        }
         Frustum exact = outside.frustum;
         placeEye(exact, corners_);
-        return camera(exact.eye, targetOf(exact), vfov());
+        const glm::vec3 target = targetOf(exact);
+        return parallel() ? parallelCamera(exact.eye, target, 2.0f * exact.halfHeight)
+                          : camera(exact.eye, target, vfov());
     }
 
   private:
@@ -78,22 +97,63 @@ class Framer {
         Frustum frustum;
         float worth = -1.0f;
         float unseen = 0.0f;  // fraction of the samples that no candidate saw
+        bool block = false;   // whether these are many, and all others lie on the bounds
     };
 
     float vfov() const { return choice_.vfov.value_or(kDefaultVfov); }
+    bool parallel() const { return choice_.type == CameraType::kOrthographic; }
 
     Frustum frustumOf(const glm::vec3& forward, float angle) const {
         const auto [right, up] = axes_.across(forward);
         const float tangent = std::tan(0.5f * glm::radians(angle));
-        return {glm::vec3(0.0f), forward, right, up, tangent * aspect_, tangent};
+        return {glm::vec3(0.0f), forward, right, up, tangent * aspect_, tangent, parallel()};
+    }
+
+    void placeEye(Frustum& frustum, const std::vector<glm::dvec3>& points) const {
+        if (frustum.parallel) {
+            placePlane(frustum, points);
+        } else {
+            placePoint(frustum, points);
+        }
+    }
+
+    /// Places the plane where parallel rays begin in front of all points, and makes the image as large as it
+    /// must be to show them, including a margin, unless its height is given. The points are centred, or the
+    /// target is, if there is one.
+    void placePlane(Frustum& frustum, const std::vector<glm::dvec3>& points) const {
+        const glm::dvec3 middle = target_ ? glm::dvec3(*target_) : glm::dvec3(0.0);
+        glm::dvec3 lower(1e300), upper(-1e300);  // x, y and depth
+        for (const glm::dvec3& point : points) {
+            const glm::dvec3 offset = point - middle;
+            const glm::dvec3 place(glm::dot(offset, glm::dvec3(frustum.right)),
+                                   glm::dot(offset, glm::dvec3(frustum.up)),
+                                   glm::dot(offset, glm::dvec3(frustum.forward)));
+            lower = glm::min(lower, place);
+            upper = glm::max(upper, place);
+        }
+        glm::dvec2 across = 0.5 * glm::dvec2(lower + upper), half = 0.5 * glm::dvec2(upper - lower);
+        if (target_) {
+            across = glm::dvec2(0.0);
+            half = glm::max(glm::abs(glm::dvec2(lower)), glm::abs(glm::dvec2(upper)));
+        }
+        const double needed = kMargin * std::max(half.y, half.x / static_cast<double>(aspect_));
+        const double given = static_cast<double>(choice_.height.value_or(0.0f)) * surface_.scale() / 2.0;
+        frustum.halfHeight = static_cast<float>(choice_.height ? given : needed);
+        frustum.halfWidth = frustum.halfHeight * aspect_;
+        // As far away as a perspective camera that shows the same: the default lamp stands beside the camera.
+        const double tangent = std::tan(0.5 * glm::radians(static_cast<double>(kDefaultVfov)));
+        const double depth =
+            lower.z - std::max(static_cast<double>(frustum.halfHeight) / tangent, 0.02 * radius_);
+        frustum.eye = glm::vec3(middle + across.x * glm::dvec3(frustum.right) +
+                                across.y * glm::dvec3(frustum.up) + depth * glm::dvec3(frustum.forward));
     }
 
     /// Places the eye as near as possible with all points within the frustum, including a margin. The points
     /// are centred, or the target is, if there is one.
-    void placeEye(Frustum& frustum, const std::vector<glm::dvec3>& points) const {
+    void placePoint(Frustum& frustum, const std::vector<glm::dvec3>& points) const {
         const glm::dvec3 forward(frustum.forward), right(frustum.right), up(frustum.up);
-        const double tangentX = static_cast<double>(frustum.tangentX) / kMargin;
-        const double tangentY = static_cast<double>(frustum.tangentY) / kMargin;
+        const double tangentX = static_cast<double>(frustum.halfWidth) / kMargin;
+        const double tangentY = static_cast<double>(frustum.halfHeight) / kMargin;
         // A point is in view if its offset satisfies |x| <= tangentX z and |y| <= tangentY z. The largest
         // values of x - tangentX z and so on determine the four planes of the frustum.
         glm::dvec4 touch(-1e300);
@@ -141,7 +201,7 @@ class Framer {
                 placeEye(frustum, outermost_);
                 // A surface does not hide a target that lies on it.
                 const bool hidden =
-                    target_ && !surface_.sees(frustum.eye, *target_ - 1e-3f * frustum.forward);
+                    target_ && !surface_.sees(frustum.eyeFor(*target_), *target_ - 1e-3f * frustum.forward);
                 const float preference = directions[i].preference * (hidden ? 0.3f : 1.0f);
                 views[i] = {frustum, preference * samples_.worthOf(frustum, &seen[i])};
             }
@@ -149,12 +209,24 @@ class Framer {
         View best = *std::max_element(views.begin(), views.end(),
                                       [](const View& a, const View& b) { return a.worth < b.worth; });
         std::size_t unseen = 0;
+        bool convex = true;
         for (std::size_t k = 0; k < samples_.size(); ++k) {
-            unseen += std::none_of(seen.begin(), seen.end(), [&](const auto& s) { return s[k]; }) ? 1 : 0;
+            if (std::none_of(seen.begin(), seen.end(), [&](const auto& s) { return s[k]; })) {
+                ++unseen;
+            } else {
+                convex = convex && isOnBounds(samples_.front(k).position);
+            }
         }
         best.unseen =
             static_cast<float>(unseen) / static_cast<float>(std::max<std::size_t>(samples_.size(), 1));
+        best.block = convex && best.unseen > 0.3f;
         return best;
+    }
+
+    bool isOnBounds(const glm::vec3& point) const {
+        const glm::vec3 below = point - surface_.toLocal(surface_.bulk().lower);
+        const glm::vec3 above = surface_.toLocal(surface_.bulk().upper) - point;
+        return glm::any(glm::lessThan(glm::min(below, above), glm::vec3(0.01f)));
     }
 
     /// For a choice with a position but no target.
@@ -167,8 +239,10 @@ class Framer {
         }
         const glm::vec3 centre = 0.5f * (lower + upper);
         const bool inside = glm::all(glm::greaterThan(eye, lower)) && glm::all(glm::lessThan(eye, upper));
-        if (!inside && glm::distance(eye, centre) > 1e-3f)
-            return camera(eye, centre, angleAround(eye, centre));
+        if (!inside && glm::distance(eye, centre) > 1e-3f) {
+            return parallel() ? parallelCamera(eye, centre, heightAround(eye, centre))
+                              : camera(eye, centre, angleAround(eye, centre));
+        }
         const float angle = choice_.vfov.value_or(insideVfov(aspect_));
         Frustum best{};
         float most = -1.0f;
@@ -181,6 +255,18 @@ class Framer {
         }
         const auto hit = surface_.firstHit(eye, best.forward);
         return camera(eye, eye + (hit ? std::max(hit->distance, 1e-3f) : 1.0f) * best.forward, angle);
+    }
+
+    /// The height of an image of parallel rays that covers everything.
+    float heightAround(const glm::vec3& eye, const glm::vec3& target) const {
+        const auto [right, up] = axes_.across(glm::normalize(target - eye));
+        float half = 0.0f;
+        for (const glm::dvec3& point : outermost_) {
+            const glm::vec3 offset = glm::vec3(point) - eye;
+            half =
+                std::max({half, std::abs(glm::dot(offset, up)), std::abs(glm::dot(offset, right)) / aspect_});
+        }
+        return 2.0f * half * static_cast<float>(kMargin);
     }
 
     /// The vertical angle of view that covers everything, within limits.
@@ -206,7 +292,14 @@ class Framer {
         camera.up = choice_.up ? glm::vec3(*choice_.up)
                                : axes_.upFor(glm::normalize(camera.target - camera.position));
         camera.vfov = angle;
-        return camera;
+        return asChosen(camera, choice_);
+    }
+
+    Camera parallelCamera(const glm::vec3& eye, const glm::vec3& target, float height) const {
+        Camera result = camera(eye, target, vfov());
+        if (!choice_.height)
+            result.height = static_cast<float>(static_cast<double>(height) / surface_.scale());
+        return result;
     }
 
     const CameraChoice& choice_;
@@ -218,21 +311,6 @@ class Framer {
     std::vector<glm::dvec3> corners_, outermost_;
     double radius_ = 1.0;  // of the framed points
 };
-
-}  // namespace
-
-namespace {
-
-/// An orthographic camera shows the same area as the perspective camera at its target, unless its height is
-/// given.
-Camera asChosen(Camera camera, const CameraChoice& choice) {
-    camera.type = choice.type.value_or(CameraType::kPerspective);
-    if (camera.type == CameraType::kOrthographic) {
-        const float distance = glm::distance(camera.position, camera.target);
-        camera.height = choice.height.value_or(2.0f * distance * std::tan(0.5f * glm::radians(camera.vfov)));
-    }
-    return camera;
-}
 
 }  // namespace
 
@@ -250,7 +328,7 @@ Camera completeCamera(const CameraChoice& choice) {
 Camera frameCamera(const CameraChoice& choice, const Surface& surface, const ViewSamples& samples,
                    float aspect) {
     if (choice.complete()) return completeCamera(choice);
-    return asChosen(Framer(choice, surface, samples, aspect).frame(), choice);
+    return Framer(choice, surface, samples, aspect).frame();
 }
 
 }  // namespace duolux

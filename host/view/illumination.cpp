@@ -14,7 +14,8 @@ float mean(const glm::vec3& channels) {
     return (channels.x + channels.y + channels.z) / 3.0f;
 }
 
-/// A random direction, cosine-distributed about the normal.
+}  // namespace
+
 glm::vec3 scattered(const glm::vec3& normal, SmallRandom& random) {
     const float z = 1.0f - 2.0f * random.next();
     const float phi = glm::two_pi<float>() * random.next();
@@ -24,8 +25,6 @@ glm::vec3 scattered(const glm::vec3& normal, SmallRandom& random) {
     const float length = glm::length(sum);
     return length > 1e-3f ? sum / length : normal;
 }
-
-}  // namespace
 
 float SmallRandom::next() {
     state_ += 0x9e3779b97f4a7c15ull;

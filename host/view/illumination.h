@@ -69,4 +69,7 @@ class SmallRandom {
     std::uint64_t state_;
 };
 
+/// A random direction, cosine-distributed about the normal.
+glm::vec3 scattered(const glm::vec3& normal, SmallRandom& random);
+
 }  // namespace duolux

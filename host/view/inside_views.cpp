@@ -54,7 +54,6 @@ std::vector<Heart> findHearts(const Surface& surface, const ViewSamples& samples
     std::erase_if(hearts, [](const Heart& heart) { return heart.hits < kEnclosed; });
     std::stable_sort(hearts.begin(), hearts.end(),
                      [](const Heart& a, const Heart& b) { return a.room > b.room; });
-    if (hearts.size() > kHearts) hearts.resize(kHearts);
     return hearts;
 }
 
@@ -72,8 +71,9 @@ float insideVfov(float aspect) {
 }
 
 std::optional<InsideView> bestInsideView(const Surface& surface, const ViewSamples& samples,
-                                         const ViewAxes& axes, float aspect, std::optional<float> vfov,
-                                         const std::optional<glm::vec3>& target, float unseen) {
+                                         const EnclosedEmitters& emitters, const ViewAxes& axes, float aspect,
+                                         std::optional<float> vfov, const std::optional<glm::vec3>& target,
+                                         float unseen) {
     std::vector<Heart> hearts;
     if (target) {
         hearts = {probe(surface, *target)};
@@ -81,9 +81,12 @@ std::optional<InsideView> bestInsideView(const Surface& surface, const ViewSampl
     } else {
         hearts = findHearts(surface, samples);
     }
-    if (samples.brightness() < kDark) {
+    if (emitters.all()) {
+        std::erase_if(hearts, [&](const Heart& heart) { return !emitters.areSeenFrom(heart.position); });
+    } else if (samples.brightness() < kDark) {
         std::erase_if(hearts, [&](const Heart& heart) { return !isRoom(heart, samples, unseen); });
     }
+    if (hearts.size() > kHearts) hearts.resize(kHearts);
     std::vector<InsideView> views;
     const float angle = vfov.value_or(insideVfov(aspect));
     for (const Heart& heart : hearts) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "host/view/hollows.h"
 #include "host/view/view_axes.h"
 #include "host/view/view_samples.h"
 
@@ -15,12 +16,13 @@ struct InsideView {
 };
 
 /// The best view of a closed room from near one of its walls. Empty if the scene encloses no space or is a
-/// solid body: its own emitters do not light it, and its front sides face outwards, or it is neither hollow
-/// and round nor contains anything that is hidden from outside. `unseen`: the fraction of the samples that
-/// are hidden from outside.
+/// solid body: it does not enclose its emitters, they do not light it, and its front sides face outwards, or
+/// it is neither hollow and round nor contains anything that is hidden from outside. If spaces enclose all
+/// emitters, the view is of one of these. `unseen`: the fraction of the samples that are hidden from outside.
 std::optional<InsideView> bestInsideView(const Surface& surface, const ViewSamples& samples,
-                                         const ViewAxes& axes, float aspect, std::optional<float> vfov,
-                                         const std::optional<glm::vec3>& target, float unseen);
+                                         const EnclosedEmitters& emitters, const ViewAxes& axes, float aspect,
+                                         std::optional<float> vfov, const std::optional<glm::vec3>& target,
+                                         float unseen);
 
 /// The wide vertical angle of view for an inside view.
 float insideVfov(float aspect);

@@ -15,6 +15,7 @@
 #include "host/scene/json_scene.h"
 #include "host/scene/mesh.h"
 #include "host/view/default_light.h"
+#include "host/view/emitter_sides.h"
 #include "host/view/frame_camera.h"
 
 namespace duolux {
@@ -49,6 +50,27 @@ SceneFile readScene(const std::filesystem::path& path, Reading reading) {
     return extensionOf(path) == ".obj" ? readObjScene(path, reading) : readJsonScene(path, reading);
 }
 
+void warnOfEmitters(Scene& scene, const Surface& surface) {
+    for (std::string& warning : emitterWarnings(surface, scene.camera))
+        scene.warnings.push_back(std::move(warning));
+}
+
+/// Which part of the surface an automatic camera leaves out; empty if it shows all.
+std::string describeOutliers(const Surface& surface) {
+    const std::size_t outliers = surface.bulk().outliers;
+    if (outliers == 0) return {};
+    const Geometry& geometry = surface.scene().geometry;
+    std::size_t first = 0;
+    while (surface.isFramed(first))
+        ++first;
+    const glm::dvec3 place =
+        surface.scene().origin + glm::dvec3(geometry.positions[geometry.triangles[first].x]);
+    return fmt::format(
+        "{} far from the rest (one of the corners is at {:g}, {:g}, {:g}): the camera shows the rest",
+        outliers == 1 ? "1 triangle is" : fmt::format("{} triangles are", outliers), place.x, place.y,
+        place.z);
+}
+
 /// Chooses camera and lamp.
 class View {
   public:
@@ -61,6 +83,9 @@ class View {
 
     void frame(const CameraChoice& choice) {
         scene_.camera = frameCamera(choice, surface_, samples_, aspect_);
+        const std::string outliers = choice.complete() ? std::string() : describeOutliers(surface_);
+        if (!outliers.empty()) scene_.warnings.push_back(outliers);
+        warnOfEmitters(scene_, surface_);
     }
 
     bool dark() const {
@@ -100,6 +125,7 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
     if (camera.complete() && !mayAddLamp) {
         scene.camera = completeCamera(camera);
         if (!emits) scene.warnings.emplace_back(kNothingEmits);
+        if (emits) warnOfEmitters(scene, Surface(scene, read.framedTriangles));
         return;
     }
     View view(scene, read.framedTriangles);

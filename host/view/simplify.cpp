@@ -15,7 +15,7 @@ constexpr std::size_t kMostClustered = 150'000;
 constexpr std::size_t kMostEmitters = 50'000;  // emitting triangles that are kept unchanged
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
-/// The bounds of some triangles, in the surface's coordinates.
+/// The bounds of some triangles without outliers, in the surface's coordinates.
 struct Cube {
     glm::vec3 centre{0.0f};
     float halfSide = 1.0f;
@@ -25,6 +25,7 @@ Cube cubeAround(const Surface& surface, std::size_t firstTriangle, std::size_t e
     const Geometry& geometry = surface.scene().geometry;
     glm::vec3 lower(1e30f), upper(-1e30f);
     for (std::size_t i = firstTriangle; i < endTriangle; ++i) {
+        if (i < surface.bulk().framed && !surface.isFramed(i)) continue;
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 corner =
                 surface.toLocal(glm::dvec3(geometry.positions[geometry.triangles[i][k]]));
@@ -105,11 +106,11 @@ glm::uvec3 inOrder(const glm::uvec3& t) {
 
 class Simplifier {
   public:
-    Simplifier(const Surface& surface, std::size_t framedTriangles)
-        : surface_(surface), framedTriangles_(framedTriangles) {
+    explicit Simplifier(const Surface& surface) : surface_(surface), framedTriangles_(surface.bulk().framed) {
         const Geometry& geometry = surface.scene().geometry;
         if (geometry.triangles.size() > kMostExact) {
-            framed_ = cubeAround(surface, 0, framedTriangles);
+            framed_ = cubeAround(surface, 0, framedTriangles_);
+            others_ = cubeAround(surface, framedTriangles_, geometry.triangles.size());
             const auto emitters =
                 std::count_if(geometry.materials.begin(), geometry.materials.end(),
                               [&](std::uint32_t m) { return surface.scene().materials[m].emission.any(); });
@@ -137,7 +138,7 @@ class Simplifier {
                 addExact(triangles, i);
         }
         const std::size_t count = surface_.scene().geometry.triangles.size();
-        if (framedTriangles_ < count) addClustered(triangles, Cube{}, cellsAcross, framedTriangles_, count);
+        if (framedTriangles_ < count) addClustered(triangles, others_, cellsAcross, framedTriangles_, count);
         return triangles;
     }
 
@@ -156,6 +157,7 @@ class Simplifier {
             }
             if (!clusters) clusters.emplace(surface_, cube, cellsAcross);
             const glm::uvec3 c(clusters->of(t.x), clusters->of(t.y), clusters->of(t.z));
+            // Outliers have no cells.
             if (c.x == c.y || c.y == c.z || c.z == c.x || !seen.insert(inOrder(c)).second) continue;
             add(triangles, i, clusters->centre(c.x), clusters->centre(c.y), clusters->centre(c.z));
         }
@@ -171,19 +173,19 @@ class Simplifier {
 
     void add(std::vector<Surface::Triangle>& triangles, std::size_t i, const glm::vec3& a, const glm::vec3& b,
              const glm::vec3& c) const {
-        triangles.push_back({a, b - a, c - a, surface_.scene().geometry.materials[i], i < framedTriangles_});
+        triangles.push_back({a, b - a, c - a, surface_.scene().geometry.materials[i], surface_.isFramed(i)});
     }
 
     const Surface& surface_;
     std::size_t framedTriangles_;
-    Cube framed_;
+    Cube framed_, others_;
     bool keepEmitters_ = true;
 };
 
 }  // namespace
 
-std::vector<Surface::Triangle> simplifiedTriangles(const Surface& surface, std::size_t framedTriangles) {
-    const Simplifier simplifier(surface, framedTriangles);
+std::vector<Surface::Triangle> simplifiedTriangles(const Surface& surface) {
+    const Simplifier simplifier(surface);
     if (surface.scene().geometry.triangles.size() <= kMostExact) return simplifier.all();
     std::vector<Surface::Triangle> triangles;
     for (const std::uint32_t cellsAcross : {128u, 64u, 32u}) {

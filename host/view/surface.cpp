@@ -46,13 +46,12 @@ struct Surface::Ray {
     }
 };
 
-Surface::Surface(const Scene& scene, std::size_t framedTriangles) : scene_(&scene) {
-    const Bounds bounds = boundsOf(scene.geometry);
-    const glm::dvec3 lower(bounds.lower), upper(bounds.upper);
-    centre_ = 0.5 * (lower + upper);
-    const double radius = 0.5 * glm::length(upper - lower);
+Surface::Surface(const Scene& scene, std::size_t framedTriangles)
+    : scene_(&scene), bulk_(bulkOf(scene.geometry, framedTriangles)) {
+    centre_ = 0.5 * (bulk_.lower + bulk_.upper);
+    const double radius = 0.5 * glm::length(bulk_.upper - bulk_.lower);
     scale_ = radius > 0.0 ? 1.0 / radius : 1.0;
-    triangles_ = simplifiedTriangles(*this, framedTriangles);
+    triangles_ = simplifiedTriangles(*this);
     std::vector<PrimitiveRef> boxes = boxesOf(triangles_);
     tree_ = buildBinaryBvh(boxes, SplitMethod::kBinnedSah);
 }

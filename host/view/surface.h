@@ -8,12 +8,14 @@
 
 #include "host/bvh/binary_bvh.h"
 #include "host/scene/scene.h"
+#include "host/view/bulk.h"
 
 namespace duolux {
 
-/// The triangles of a scene for visibility queries on the host, in local coordinates: the scene's bounds are
-/// centred at the origin and scaled to fit the unit ball. Scenes with many triangles are simplified, so that
-/// a query takes microseconds and all queries together take fractions of a second. Deterministic.
+/// The triangles of a scene for visibility queries on the host, in local coordinates: the bounds of what a
+/// camera should show are centred at the origin and scaled to fit the unit ball. Scenes with many triangles
+/// are simplified, so that a query takes microseconds and all queries together take fractions of a second.
+/// Deterministic.
 class Surface {
   public:
     static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -21,7 +23,7 @@ class Surface {
     struct Triangle {
         glm::vec3 corner, edge1, edge2;
         std::uint32_t material;
-        bool framed;  ///< a camera should show it; false for luminaires that are not part of a mesh
+        bool framed;  ///< a camera should show it; false for outliers, and for luminaires outside of meshes
 
         glm::vec3 areaVector() const { return 0.5f * glm::cross(edge1, edge2); }
     };
@@ -32,13 +34,20 @@ class Surface {
         bool front;  ///< whether the ray hits the front side
     };
 
-    /// The scene must outlive this object. A camera should show its first `framedTriangles` triangles.
+    /// The scene must outlive this object. A camera should show the bulk of its first `framedTriangles`
+    /// triangles.
     Surface(const Scene& scene, std::size_t framedTriangles);
 
     const Scene& scene() const { return *scene_; }
+    const Bulk& bulk() const { return bulk_; }
     const std::vector<Triangle>& triangles() const { return triangles_; }
     const Material& materialOf(std::uint32_t triangle) const {
         return scene_->materials[triangles_[triangle].material];
+    }
+
+    /// Whether a camera should show a triangle of the scene.
+    bool isFramed(std::size_t sceneTriangle) const {
+        return sceneTriangle < bulk_.framed && !bulk_.isOutlier(scene_->geometry, sceneTriangle);
     }
 
     glm::vec3 toLocal(const glm::dvec3& point) const { return {(point - centre_) * scale_}; }
@@ -58,6 +67,7 @@ class Surface {
     bool traverse(Ray& ray, bool any) const;
 
     const Scene* scene_;
+    Bulk bulk_;
     glm::dvec3 centre_{0.0};
     double scale_ = 1.0;
     std::vector<Triangle> triangles_;

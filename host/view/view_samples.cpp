@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/parallel.h"
+#include "host/view/hollows.h"
 
 namespace duolux {
 
@@ -54,16 +55,23 @@ float notGrazing(float cosine) {
 bool Frustum::contains(const glm::vec3& point) const {
     const glm::vec3 offset = point - eye;
     const float depth = glm::dot(offset, forward);
-    return depth > 0.0f && std::abs(glm::dot(offset, right)) <= tangentX * depth &&
-           std::abs(glm::dot(offset, up)) <= tangentY * depth;
+    const float widening = parallel ? 1.0f : depth;
+    return depth > 0.0f && std::abs(glm::dot(offset, right)) <= halfWidth * widening &&
+           std::abs(glm::dot(offset, up)) <= halfHeight * widening;
+}
+
+glm::vec3 Frustum::eyeFor(const glm::vec3& point) const {
+    return parallel ? point - glm::dot(point - eye, forward) * forward : eye;
 }
 
 ViewSamples::ViewSamples(const Surface& surface, const Illumination& illumination) : surface_(surface) {
     const std::vector<SurfacePoint> points = spread(surface, kSamples);
     samples_.resize(points.size());
     std::vector<std::array<float, 2>> whites(points.size());
+    std::vector<char> insideOut(points.size());
     parallelFor(points.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            insideOut[i] = isInsideOut(surface, points[i], static_cast<std::uint32_t>(i + 1)) ? 1 : 0;
             for (std::size_t side = 0; side < 2; ++side) {
                 SurfacePoint point = points[i];
                 if (side == 1) point = {point.position, -point.normal, point.triangle, false};
@@ -81,14 +89,14 @@ ViewSamples::ViewSamples(const Surface& surface, const Illumination& illuminatio
         for (std::size_t side = 0; side < 2; ++side) {
             SurfacePoint point = points[i];
             point.front = side == 0;
-            samples_[i].worth[side] = worthOf(point, whites[i][side]);
+            samples_[i].worth[side] = worthOf(point, insideOut[i] != 0, whites[i][side]);
         }
     }
 }
 
-float ViewSamples::worthOf(const SurfacePoint& point, float white) const {
+float ViewSamples::worthOf(const SurfacePoint& point, bool insideOut, float white) const {
     const Material& material = surface_.materialOf(point.triangle);
-    float worth = point.front ? 1.0f : 0.4f;
+    float worth = point.front != insideOut ? 1.0f : 0.4f;
     if (!point.front && material.sides == Sides::kFront) worth = 0.05f;
     if (brightness_ >= kDark) worth *= 0.1f + 0.9f * std::min(1.0f, white / kDark);
     return worth;
@@ -99,12 +107,13 @@ float ViewSamples::worthOf(const Frustum& frustum, std::vector<bool>* seen) cons
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         const auto& [point, worth] = samples_[i];
         if (!frustum.contains(point.position)) continue;
-        const glm::vec3 offset = frustum.eye - point.position;
+        const glm::vec3 eye = frustum.eyeFor(point.position);
+        const glm::vec3 offset = eye - point.position;
         const float cosine = glm::dot(point.normal, offset) / glm::length(offset);
         const float weight = notGrazing(std::abs(cosine));
         if (!(weight > 0.0f)) continue;
         const glm::vec3 side = cosine > 0.0f ? point.normal : -point.normal;
-        if (!surface_.sees(point.position + kOffset * side, frustum.eye, point.triangle)) continue;
+        if (!surface_.sees(point.position + kOffset * side, eye, point.triangle)) continue;
         sum += weight * worth[cosine > 0.0f ? 0 : 1];
         if (seen != nullptr) (*seen)[i] = true;
     }

@@ -8,17 +8,21 @@
 
 namespace duolux {
 
-/// The view of a camera: its axes (orthonormal), and half its width and height at distance 1.
+/// The view of a camera: its axes (orthonormal), and half its width and height at distance 1 or, if its rays
+/// are parallel, at any distance.
 struct Frustum {
     glm::vec3 eye, forward, right, up;
-    float tangentX, tangentY;
+    float halfWidth, halfHeight;
+    bool parallel = false;
 
     bool contains(const glm::vec3& point) const;
+    /// Where the ray begins that shows a point.
+    glm::vec3 eyeFor(const glm::vec3& point) const;
 };
 
 /// Points spread evenly over the surface that a camera should show, with the worth of each of their two sides
-/// in an image: front sides are worth more than back sides and, if emitters light the scene, lit sides more
-/// than unlit ones.
+/// in an image: front sides are worth more than back sides (in hollows that are inside out: less), and, if
+/// emitters light the scene, lit sides more than unlit ones.
 class ViewSamples {
   public:
     ViewSamples(const Surface& surface, const Illumination& illumination);
@@ -34,13 +38,12 @@ class ViewSamples {
     /// white on the brighter side (reflected or emitted).
     float brightness() const { return brightness_; }
 
-    /// The worth of one side of the surface.
-    float worthOf(const SurfacePoint& point, float white) const;
-
     std::size_t size() const { return samples_.size(); }
     const SurfacePoint& front(std::size_t sample) const { return samples_[sample].front; }
 
   private:
+    float worthOf(const SurfacePoint& point, bool insideOut, float white) const;
+
     struct Sample {
         SurfacePoint front;
         std::array<float, 2> worth{};  // of the front and the back

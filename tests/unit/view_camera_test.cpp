@@ -17,16 +17,16 @@ glm::vec3 viewOf(const Camera& camera) {
     return glm::normalize(camera.target - camera.position);
 }
 
-/// Position in the picture: -1 to 1 from side to side and from bottom to top, depth along the view in z.
+/// Position in the image: -1 to 1 from side to side and from bottom to top, depth along the view in z.
 glm::vec3 project(const Camera& camera, float aspect, const glm::vec3& point) {
     const glm::vec3 forward = viewOf(camera);
     const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
     const glm::vec3 up = glm::cross(right, forward);
     const glm::vec3 offset = point - camera.position;
     const float depth = glm::dot(offset, forward);
-    const float tangent = std::tan(glm::radians(camera.vfov) / 2);
-    return {glm::dot(offset, right) / (depth * tangent * aspect), glm::dot(offset, up) / (depth * tangent),
-            depth};
+    const bool parallel = camera.type == CameraType::kOrthographic;
+    const float half = parallel ? camera.height / 2 : depth * std::tan(glm::radians(camera.vfov) / 2);
+    return {glm::dot(offset, right) / (half * aspect), glm::dot(offset, up) / half, depth};
 }
 
 TEST(ViewCamera, EverythingIsInViewAndTouchesOppositeEdges) {
@@ -37,11 +37,15 @@ TEST(ViewCamera, EverythingIsInViewAndTouchesOppositeEdges) {
                                   {{0, 0, 0}, {1, 1, 1e-4f}}};
     for (const auto& box : boxes) {
         for (const glm::uvec2 size : {glm::uvec2(512, 512), glm::uvec2(900, 300), glm::uvec2(300, 900)}) {
-            for (const float vfov : {5.0f, 40.0f, 120.0f}) {
+            for (const float vfov : {0.0f, 5.0f, 40.0f, 120.0f}) {
                 CameraChoice choice;
-                choice.vfov = vfov;
+                if (vfov > 0.0f) {
+                    choice.vfov = vfov;
+                } else {
+                    choice.type = CameraType::kOrthographic;
+                }
                 const Camera camera = framed(boxScene(box[0], box[1]), choice, size);
-                EXPECT_EQ(camera.vfov, vfov);
+                EXPECT_TRUE(vfov == 0.0f || camera.vfov == vfov);
                 const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
                 glm::vec2 lower(9.0f), upper(-9.0f);
                 for (int i = 0; i < 8; ++i) {
@@ -111,13 +115,43 @@ Scene litBox(const glm::vec3& opening, bool inward) {
 
 TEST(ViewCamera, LooksIntoOpenBoxes) {
     for (const glm::vec3& opening : kOpenings) {
-        for (const Scene& scene : {openBox(opening, true), litBox(opening, true), litBox(opening, false)}) {
+        for (const Scene& scene : {openBox(opening, true), openBox(opening, false), litBox(opening, true),
+                                   litBox(opening, false)}) {
             const Camera camera = framed(scene);
             EXPECT_LT(glm::dot(viewOf(camera), opening), -0.95f) << opening.x << " " << opening.z;
             EXPECT_GT(glm::dot(camera.position, opening), 1.0f);
         }
     }
-    EXPECT_LT(viewOf(framed(openBox({0, 1, 0}, true))).y, -0.5f) << "from above";
+    for (const bool inward : {true, false})
+        EXPECT_LT(viewOf(framed(openBox({0, 1, 0}, inward))).y, -0.5f) << "from above";
+}
+
+TEST(ViewCamera, ModelsWithoutABottomAreSolid) {
+    const Camera open = framed(openBox({0, -1, 0}, false));
+    const Camera closed = framed(boxScene(glm::vec3(-1), glm::vec3(1)));
+    EXPECT_LT(glm::distance(viewOf(open), viewOf(closed)), 1e-3f);
+}
+
+TEST(ViewCamera, AFewTrianglesFarAwayAreLeftOut) {
+    const Scene box = boxScene({-1, -1, -1}, {1, 1, 1});
+    const Camera alone = framed(box);
+    for (const float distance : {20.0f, 1e3f, 1e6f}) {
+        SceneBuilder builder;
+        builder.scene = box;
+        builder.triangle({distance, 0, 0}, {distance + 1, 0, 0}, {distance, 1, 0}, 0);
+        const Camera camera = framed(builder.scene);
+        EXPECT_LT(glm::distance(camera.position, alone.position), 0.01f) << distance;
+        EXPECT_LT(glm::distance(camera.target, alone.target), 0.01f) << distance;
+    }
+    // What is not far away in proportion, and parts that are as large as the rest, are shown.
+    SceneBuilder near;
+    near.scene = box;
+    near.triangle({4, 0, 0}, {5, 0, 0}, {4, 1, 0}, 0);
+    EXPECT_GT(framed(near.scene).position.x, alone.position.x + 1.0f);
+    SceneBuilder two;
+    two.scene = box;
+    two.box({99, -1, -1}, {101, 1, 1}, Facing::kOutward, 0);
+    EXPECT_GT(glm::length(framed(two.scene).position), 100.0f);
 }
 
 TEST(ViewCamera, TheCornellBoxIsSeenAsUsual) {
@@ -216,8 +250,22 @@ TEST_F(ViewCameraFiles, AnOrthographicCameraShowsAsMuchAtItsTarget) {
     const Camera automatic = cameraOf(R"("type": "orthographic")");
     EXPECT_EQ(automatic.type, CameraType::kOrthographic);
     EXPECT_GT(automatic.height, 0.9f) << "the triangle, whose sides are 1, fills it";
-    EXPECT_LT(automatic.height, 2.0f);
+    EXPECT_LT(automatic.height, 1.5f);
+    EXPECT_EQ(cameraOf(R"("type": "orthographic", "height": 9)").height, 9.0f);
+    const Camera from = cameraOf(R"("type": "orthographic", "position": [0.5, 0.5, 7])");
+    EXPECT_GT(from.height, 0.9f);
+    EXPECT_LT(from.height, 1.5f);
+    const Camera at = cameraOf(R"("type": "orthographic", "target": [0, 1, 0])");
+    EXPECT_GT(at.height, 1.8f) << "twice the distance to what is farthest from the middle";
+    EXPECT_LT(at.height, 3.0f);
     EXPECT_EQ(cameraOf("").type, CameraType::kPerspective);
+}
+
+TEST_F(ViewCameraFiles, WhatIsLeftOutIsSaid) {
+    const std::string far = std::string(kTriangleObj) + "v 0 0 700\nv .1 0 700\nv 0 .1 700\nf -3 -2 -1\n";
+    EXPECT_THAT(loadObj(far).warnings, testing::Contains(testing::HasSubstr(
+                                           "1 triangle is far from the rest (one of the corners is at "
+                                           "0, 0, 700)")));
 }
 
 TEST_F(ViewCameraFiles, ThePictureThatTheCallerWantsIsFilled) {

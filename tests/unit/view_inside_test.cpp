@@ -19,12 +19,12 @@ SceneBuilder furnishedRoom(Facing facing) {
     return builder;
 }
 
-void addLamp(SceneBuilder& builder, bool down) {
+void addLamp(SceneBuilder& builder, bool down, float y = 0.6f) {
     Material lamp;
     lamp.name = "lamp";
     lamp.emission.invisible = lamp.emission.visible = glm::vec3(8.0f);
     const std::uint32_t material = builder.add(lamp);
-    const glm::vec3 a(-0.5f, 0.6f, -0.5f), b(0.5f, 0.6f, -0.5f), c(0.5f, 0.6f, 0.5f), d(-0.5f, 0.6f, 0.5f);
+    const glm::vec3 a(-0.5f, y, -0.5f), b(0.5f, y, -0.5f), c(0.5f, y, 0.5f), d(-0.5f, y, 0.5f);
     if (down) {
         builder.quad(a, b, c, d, material);
     } else {
@@ -50,6 +50,34 @@ TEST(ViewInside, ALitRoomIsSeenFromWithinWhateverItsWinding) {
 TEST(ViewInside, ARoomWithoutLampsIsToldByItsFronts) {
     EXPECT_TRUE(isInside(framed(furnishedRoom(Facing::kInward).scene).position, {2, 1, 2}));
     EXPECT_FALSE(isInside(framed(furnishedRoom(Facing::kOutward).scene).position, {2, 1, 2}));
+}
+
+/// A closed room with walls of concrete, in which a lamp faces down, or up to the ceiling.
+TEST(ViewInside, ARoomWithThickWallsIsSeenFromWithin) {
+    for (const bool furnished : {true, false}) {
+        for (const char* lamp : {"none", "down", "up", "outside"}) {
+            SceneBuilder builder = furnishedRoom(Facing::kInward);
+            const std::uint32_t material = builder.add(Material{});
+            if (!furnished) {
+                builder = SceneBuilder();
+                builder.box({-2, -1, -2}, {2, 1, 2}, Facing::kInward, builder.add(Material{}));
+            }
+            builder.box({-2.3f, -1.3f, -2.3f}, {2.3f, 1.3f, 2.3f}, Facing::kOutward,
+                        furnished ? material : 0);
+            const std::string where = lamp;
+            if (where == "down" || where == "up") addLamp(builder, where == "down", 0.95f);
+            if (where == "outside") addLamp(builder, true, 9.0f);
+            EXPECT_EQ(isInside(framed(builder.scene).position, {2, 1, 2}), where != "outside") << where;
+        }
+    }
+}
+
+TEST(ViewInside, ALampThatFacesTheCeilingIsAReasonToGoInside) {
+    SceneBuilder builder = furnishedRoom(Facing::kInward);
+    builder.sphere({0, 0, 0}, 4.0f, 1, Facing::kOutward, 0);
+    EXPECT_FALSE(isInside(framed(builder.scene).position, {2, 1, 2})) << "a sphere is no block";
+    addLamp(builder, false, 0.98f);
+    EXPECT_TRUE(isInside(framed(builder.scene).position, {2, 1, 2}));
 }
 
 TEST(ViewInside, SolidsAreSeenFromOutside) {

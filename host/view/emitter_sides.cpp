@@ -1,0 +1,101 @@
+#include "host/view/emitter_sides.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "host/base/printable.h"
+#include "host/view/look_through.h"
+#include "host/view/view_axes.h"
+
+namespace duolux {
+
+namespace {
+
+bool emitsFromItsFront(const Material& material) {
+    return material.emission.any() && material.emission.sides == Sides::kFront;
+}
+
+/// The mean distance, up to the size of the scene, to surfaces that one side of an emitter could light.
+float reach(const Surface& surface, const SurfacePoint& point) {
+    constexpr int kDirections = 32;
+    constexpr float kMost = 1.0f;
+    const std::uint32_t own = surface.triangles()[point.triangle].material;
+    float sum = 0.0f;
+    for (int i = 0; i < kDirections; ++i) {
+        glm::vec3 direction = onSphere(i, kDirections);
+        if (glm::dot(direction, point.normal) < 0.0f) direction = -direction;
+        const auto hit = surface.firstHit(point.position + kOffset * point.normal, direction, point.triangle);
+        if (!hit) continue;
+        const std::uint32_t material = surface.triangles()[hit->triangle].material;
+        if (material == own || !scatters(surface.scene().materials[material], hit->front)) continue;
+        sum += std::min(hit->distance, kMost);
+    }
+    return sum / kDirections;
+}
+
+/// What is known of the emitters of one material.
+struct Emitters {
+    // Of all, of those whose back sides could light much more, and of those whose back sides could light as
+    // much.
+    double area = 0.0, away = 0.0, evenly = 0.0;
+    std::vector<std::uint32_t> triangles;
+    int fronts = 0, backs = 0;  // rays of the camera that hit them
+};
+
+void judge(const Surface& surface, Emitters& emitters) {
+    constexpr std::size_t kMost = 64;
+    constexpr float kMuchMore = 4.0f, kAsMuch = 0.8f, kLittle = 0.01f;
+    const std::size_t count = std::min(kMost, emitters.triangles.size());
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t index = emitters.triangles[k * emitters.triangles.size() / count];
+        const Surface::Triangle& t = surface.triangles()[index];
+        const glm::vec3 area = t.areaVector();
+        const auto size = static_cast<double>(glm::length(area));
+        const glm::vec3 centre = t.corner + (t.edge1 + t.edge2) / 3.0f, normal = glm::normalize(area);
+        const float front = reach(surface, {centre, normal, index, true});
+        const float back = reach(surface, {centre, -normal, index, false});
+        emitters.area += size;
+        if (back <= kLittle) continue;
+        if (back > kMuchMore * front) emitters.away += size;
+        if (back > kAsMuch * front) emitters.evenly += size;
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> emitterWarnings(const Surface& surface, const Camera& camera) {
+    std::map<std::uint32_t, Emitters> all;  // by material
+    for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
+        if (!emitsFromItsFront(surface.materialOf(i))) continue;
+        if (glm::length(surface.triangles()[i].areaVector()) > 0.0f)
+            all[surface.triangles()[i].material].triangles.push_back(i);
+    }
+    if (all.empty()) return {};
+    lookThrough(camera, aspectOf(surface.scene().render), surface,
+                [&](const SurfacePoint& point, std::uint32_t) {
+                    const auto emitters = all.find(surface.triangles()[point.triangle].material);
+                    if (emitters == all.end()) return;
+                    ++(point.front ? emitters->second.fronts : emitters->second.backs);
+                });
+    std::vector<std::string> warnings;
+    for (auto& [material, emitters] : all) {
+        judge(surface, emitters);
+        const bool away = emitters.away > 0.25 * emitters.area;
+        const bool onlyBacks = emitters.backs > 0 && emitters.fronts == 0;
+        if (!away && !(onlyBacks && emitters.evenly > 0.5 * emitters.area)) continue;
+        const char* const what =
+            !away ? "show the camera only their back sides"
+                  : (emitters.away > 0.9 * emitters.area ? "face away from what they could light"
+                                                         : "partly face away from what they could light");
+        warnings.push_back(fmt::format(
+            "emitters (material {}) {}: they emit only from their front sides, on which the corners are "
+            "counter-clockwise; turn them, or use \"sides\": \"both\" in the emission of a JSON "
+            "scene",
+            inQuotes(surface.scene().materials[material].name), what));
+    }
+    return warnings;
+}
+
+}  // namespace duolux
