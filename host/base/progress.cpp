@@ -86,6 +86,12 @@ Progress::Style Progress::styleForStderr(bool quiet) {
     return ::isatty(STDERR_FILENO) != 0 ? Style::kBar : Style::kPlain;
 }
 
+void Progress::begin(double total) {
+    state_ = {0.0, total, 0.0, std::nullopt};
+    started_ = true;
+    if (style_ != Style::kQuiet) draw(false);
+}
+
 void Progress::update(const ProgressState& state) {
     const bool first = !started_;
     state_ = state;

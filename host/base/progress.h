@@ -41,6 +41,9 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Shows 0 % before there is anything to report, because preparations take a while.
+    void begin(double total);
+
     void update(const ProgressState& state);
     void update(double done, double total, double seconds) { update({done, total, seconds, std::nullopt}); }
 

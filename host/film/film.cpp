@@ -14,12 +14,11 @@ Film::Film(std::uint32_t width, std::uint32_t height, float quantum)
     : width_(width),
       height_(height),
       quantum_(quantum),
-      sums_(std::size_t{width} * height, PixelSum{}),
-      samples_(std::size_t{width} * height, 0) {}
+      sums_(std::size_t{width} * height),
+      samples_(std::size_t{width} * height) {}
 
-Film::Film(std::uint32_t width, std::uint32_t height, float quantum, std::vector<PixelSum> sums,
-           std::vector<std::uint32_t> samples, std::vector<PixelSum> lightSums, std::uint64_t lightPaths,
-           Carries carries)
+Film::Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples,
+           Sums lightSums, std::uint64_t lightPaths, Carries carries)
     : width_(width),
       height_(height),
       quantum_(quantum),
@@ -68,7 +67,7 @@ void Film::refine(int shift) {
         carry(sum,
               static_cast<std::int64_t>((wide - value) >> 64) + static_cast<std::int64_t>(high << shift));
     };
-    const auto shiftAll = [&](std::vector<PixelSum>& sums, std::uint64_t firstSum) {
+    const auto shiftAll = [&](Sums& sums, std::uint64_t firstSum) {
         for (std::size_t i = 0; i < sums.size(); ++i) {
             for (unsigned c = 0; c < 3; ++c) {
                 shiftOne(sums[i].invisible[c], firstSum + 6 * i + c);
@@ -94,7 +93,7 @@ void Film::add(const Film& other) {
         addTo(sums_[i], other.sums_[i], 6 * i);
         samples_[i] += other.samples_[i];
     }
-    if (!other.lightSums_.empty()) lightSums_.resize(sums_.size(), PixelSum{});
+    if (!other.lightSums_.empty() && lightSums_.empty()) lightSums_ = Sums(sums_.size());
     for (std::size_t i = 0; i < other.lightSums_.size(); ++i)
         addTo(lightSums_[i], other.lightSums_[i], firstLightSum() + 6 * i);
     countLightPaths(other.lightPaths_);
@@ -112,7 +111,7 @@ void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> 
 
 void Film::addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums) {
     if (sums.empty()) return;
-    lightSums_.resize(sums_.size(), PixelSum{});
+    if (lightSums_.empty()) lightSums_ = Sums(sums_.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         PixelSum sum = sums[i];
         for (int c = 0; c < 3; ++c) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "host/base/zeroed_memory.h"
 #include "host/film/image.h"
 
 namespace duolux {
@@ -20,6 +21,8 @@ class Film {
         std::int64_t invisible[3];
         std::int64_t visible[3];
     };
+    using Sums = ZeroedVector<PixelSum>;
+    using Samples = ZeroedVector<std::uint32_t>;
     /// The multiples of 2^64 of the few sums that exceed 64 bits, by the index of the sum: 6 pixel + channel
     /// (+ 3 for the visible component). The sums of light paths follow all others.
     using Carries = std::map<std::uint64_t, std::int64_t>;
@@ -29,9 +32,8 @@ class Film {
 
     /// Creates a film from the values of another film's accessors; `lightSums` may be empty. The sizes must
     /// match.
-    Film(std::uint32_t width, std::uint32_t height, float quantum, std::vector<PixelSum> sums,
-         std::vector<std::uint32_t> samples, std::vector<PixelSum> lightSums, std::uint64_t lightPaths,
-         Carries carries);
+    Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples, Sums lightSums,
+         std::uint64_t lightPaths, Carries carries);
 
     /// Must be called before anything is added.
     void setQuantum(float quantum);
@@ -88,9 +90,9 @@ class Film {
     std::uint32_t width_, height_;
     float quantum_;
     bool overflowed_ = false;
-    std::vector<PixelSum> sums_;
-    std::vector<std::uint32_t> samples_;
-    std::vector<PixelSum> lightSums_;
+    Sums sums_;
+    Samples samples_;
+    Sums lightSums_;
     std::uint64_t lightPaths_ = 0;
     Carries carries_;
 };

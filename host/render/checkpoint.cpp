@@ -30,11 +30,11 @@ std::string_view bytesOf(std::span<const T> items) {
 }
 
 /// Takes items off the front of the bytes.
-template <typename T>
-std::vector<T> take(std::string_view& bytes, std::size_t count) {
-    std::vector<T> items(count);
-    std::memcpy(items.data(), bytes.data(), count * sizeof(T));
-    bytes.remove_prefix(count * sizeof(T));
+template <typename Items>
+Items take(std::string_view& bytes, std::size_t count) {
+    Items items(count);
+    std::memcpy(items.data(), bytes.data(), count * sizeof items[0]);
+    bytes.remove_prefix(count * sizeof items[0]);
     return items;
 }
 
@@ -108,9 +108,9 @@ Checkpoint parse(std::string_view bytes, const std::function<void()>& fail) {
     const std::size_t pixels = std::size_t{width} * height;
     const bool light = film.at("light_sums").get<bool>();
     if (bytes.size() != pixels * (sizeof(std::uint32_t) + (light ? 2 : 1) * sizeof(Film::PixelSum))) fail();
-    auto samples = take<std::uint32_t>(bytes, pixels);
-    auto sums = take<Film::PixelSum>(bytes, pixels);
-    auto lightSums = light ? take<Film::PixelSum>(bytes, pixels) : std::vector<Film::PixelSum>();
+    auto samples = take<Film::Samples>(bytes, pixels);
+    auto sums = take<Film::Sums>(bytes, pixels);
+    auto lightSums = light ? take<Film::Sums>(bytes, pixels) : Film::Sums();
     return {std::move(origin),
             {Film(width, height, film.at("quantum").get<float>(), std::move(sums), std::move(samples),
                   std::move(lightSums), film.at("light_paths").get<std::uint64_t>(),

@@ -117,6 +117,13 @@ TEST(Progress, DrawsABarAtMostTenTimesASecond) {
     EXPECT_GE(std::ranges::count(text, '\r'), 9);
 }
 
+TEST(Progress, BeginsBeforeThereIsProgress) {
+    const auto use = [](Progress& progress) { progress.begin(1e6); };
+    EXPECT_EQ(outputOf(Progress::Style::kPlain, use), "  0 %\n");
+    EXPECT_THAT(outputOf(Progress::Style::kBar, use), testing::StartsWith("\r  0 % "));
+    EXPECT_EQ(outputOf(Progress::Style::kQuiet, use), "");
+}
+
 TEST(Progress, EndsItsLineWhenTheWorkIsAbandoned) {
     const auto use = [](Progress& progress) { progress.update(1.0, 2.0, 1.0); };
     EXPECT_THAT(outputOf(Progress::Style::kBar, use), EndsWith("\x1b[K\n"));

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -233,6 +236,25 @@ TEST(Film, IsTheSameBitsInWhateverOrderPartsAreAdded) {
     }
     EXPECT_EQ(forward.resolve().visible, shuffled.resolve().visible);
     EXPECT_EQ(forward.resolve().invisible, shuffled.resolve().invisible);
+}
+
+/// The resident memory of this process in bytes.
+std::size_t residentBytes() {
+    std::size_t all = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> all >> resident;
+    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(Film, TakesMemoryOnlyAsItIsFilled) {
+    const std::size_t before = residentBytes();
+    Film film(8192, 4096, 0x1p-20f);
+    EXPECT_LT(residentBytes() - before, 64u << 20) << "of 1.6 GiB";
+    const std::array<std::uint32_t, 1> pixel{8192u * 4095u};
+    film.add(pixel, std::array{Film::PixelSum{{1, 2, 3}, {4, 5, 6}}}, 2);
+    EXPECT_EQ(film.samplesOf(pixel[0]), 2u);
+    EXPECT_EQ(film.samplesOf(pixel[0] + 1), 0u);
+    EXPECT_EQ(film.sums()[pixel[0]].visible[2], 6);
+    EXPECT_EQ(film.sums()[pixel[0] - 1].visible[2], 0);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ constexpr std::uint32_t kWidth = 5, kHeight = 3;
 
 /// A film in which every number is different and uses its high bits.
 Film someFilm(bool light) {
-    std::vector<Film::PixelSum> sums(kWidth * kHeight), lightSums(light ? kWidth * kHeight : 0);
-    std::vector<std::uint32_t> samples(kWidth * kHeight);
+    Film::Sums sums(kWidth * kHeight), lightSums(light ? kWidth * kHeight : 0);
+    Film::Samples samples(kWidth * kHeight);
     std::int64_t next = 0x0123456789abcdef;
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
         samples[i] = i * 0x01010101u;
