@@ -1,10 +1,11 @@
-#include "host/app/dark_picture.h"
+#include "host/app/exposure_warning.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "host/app/info_json.h"
@@ -71,41 +72,75 @@ std::string describe(const Scene& scene, const DarkReason& reason) {
     return "little light reaches what the camera sees; try --lamp, or more --spp";
 }
 
-/// The largest value that the brightest channels of at least the fraction `part` of the pixels reach, rounded
-/// down to half a stop; 0 if it is below 2^-30.
-float reachedBy(double part, const ImageRows& rows, glm::vec2 display) {
-    constexpr int kBins = 160, kZero = 60;  // half stops
-    std::array<std::uint64_t, kBins> counts{};
-    std::vector<glm::vec3> invisible(rows.width), visible(rows.width);
-    for (std::uint32_t row = 0; row < rows.height; ++row) {
-        rows.read(row, invisible, visible);
-        for (std::size_t i = 0; i < rows.width; ++i) {
-            const glm::vec3 c = display.x * invisible[i] + display.y * visible[i];
-            const float brightest = std::max({c.x, c.y, c.z});
-            if (!(brightest > 0x1p-30f)) continue;
-            const int bin = static_cast<int>(std::floor(2.0f * std::log2(brightest))) + kZero;
-            ++counts[static_cast<std::size_t>(std::clamp(bin, 0, kBins - 1))];
+/// How many pixels are how bright, by their brightest channels, in half stops.
+class Brightness {
+  public:
+    Brightness(const ImageRows& rows, glm::vec2 display)
+        : pixels_(static_cast<double>(rows.width) * static_cast<double>(rows.height)) {
+        std::vector<glm::vec3> invisible(rows.width), visible(rows.width);
+        for (std::uint32_t row = 0; row < rows.height; ++row) {
+            rows.read(row, invisible, visible);
+            for (std::size_t i = 0; i < rows.width; ++i) {
+                const glm::vec3 c = display.x * invisible[i] + display.y * visible[i];
+                const float brightest = std::max({c.x, c.y, c.z});
+                if (!(brightest > 0x1p-30f)) continue;
+                const int bin = static_cast<int>(std::floor(2.0f * std::log2(brightest))) + kZero;
+                ++counts_[static_cast<std::size_t>(std::clamp(bin, 0, kBins - 1))];
+            }
         }
     }
-    const double wanted = part * static_cast<double>(rows.width) * static_cast<double>(rows.height);
-    std::uint64_t reached = 0;
-    for (int bin = kBins - 1; bin >= 0; --bin) {
-        reached += counts[static_cast<std::size_t>(bin)];
-        if (reached > 0 && static_cast<double>(reached) >= wanted)
-            return std::exp2(0.5f * static_cast<float>(bin - kZero));
+
+    double pixels() const { return pixels_; }
+
+    /// The number of pixels of at least 2^stops, rounded to half a stop.
+    double above(float stops) const {
+        const int first = static_cast<int>(std::ceil(2.0f * stops)) + kZero;
+        double sum = 0.0;
+        for (int bin = std::max(first, 0); bin < kBins; ++bin)
+            sum += static_cast<double>(counts_[static_cast<std::size_t>(bin)]);
+        return sum;
     }
-    return 0.0f;
+
+    /// The largest value, in stops, that at least `wanted` pixels reach, rounded down to half a stop; empty
+    /// if it is below -30.
+    std::optional<float> reachedBy(double wanted) const {
+        double reached = 0.0;
+        for (int bin = kBins - 1; bin >= 0; --bin) {
+            reached += static_cast<double>(counts_[static_cast<std::size_t>(bin)]);
+            if (reached > 0.0 && reached >= wanted) return 0.5f * static_cast<float>(bin - kZero);
+        }
+        return std::nullopt;
+    }
+
+  private:
+    static constexpr int kBins = 160, kZero = 60;
+    std::array<std::uint64_t, kBins> counts_{};
+    double pixels_;
+};
+
+std::string overexposureWarning(const Brightness& brightness, float exposure) {
+    constexpr double kMost = 0.5, kFew = 0.2;  // of the pixels that are lit
+    const double lit = brightness.above(std::log2(kDarkestGrey) - exposure);
+    const double clipped = brightness.above(-exposure);
+    if (!(clipped > kMost * lit)) return {};
+    const std::optional<float> bright = brightness.reachedBy(kFew * lit);
+    // Their half stop must end below white.
+    return fmt::format(
+        "{:.0f} % of what is lit in the picture is brighter than white and clipped; try --exposure {:g}",
+        100.0 * clipped / lit, -(bright.value_or(0.0f) + 0.5f));
 }
 
 }  // namespace
 
-std::string darkPictureWarning(const Scene& scene, const ImageRows& rows, float exposure) {
-    const float bright = reachedBy(kLitPart, rows, scene.display);
-    if (bright * std::exp2(exposure) >= kDarkestGrey) return {};
+std::string exposureWarning(const Scene& scene, const ImageRows& rows, float exposure, bool clips) {
+    const Brightness brightness(rows, scene.display);
+    const std::optional<float> bright = brightness.reachedBy(kLitPart * brightness.pixels());
+    if (bright && std::exp2(*bright + exposure) >= kDarkestGrey)
+        return clips ? overexposureWarning(brightness, exposure) : std::string();
     const std::string dark = fmt::format("less than {:g} % of the picture is lit: ", 100.0 * kLitPart);
-    if (bright > 0.0f) {
-        return dark + fmt::format("all of it is very dark; try --exposure {:.0f}",
-                                  std::ceil(std::log2(0.5f / bright)));
+    if (bright) {
+        return dark +
+               fmt::format("all of it is very dark; try --exposure {:.0f}", std::ceil(-1.0f - *bright));
     }
     const DarkReason reason = whyDark(scene);
     if (reason.darkness == Darkness::kNothingEmits && !scene.warnings.empty()) {

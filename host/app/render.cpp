@@ -12,7 +12,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/console.h"
-#include "host/app/dark_picture.h"
+#include "host/app/exposure_warning.h"
 #include "host/app/film_images.h"
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
@@ -250,7 +250,14 @@ void runRender(const RenderOptions& options) {
     seconds.load = secondsSince(start);
 
     Device device = openDevice(options.device);
-    Progress progress(Progress::styleForStderr(options.quiet));
+    const Progress::Style style = Progress::styleForStderr(options.quiet);
+    Progress progress(style);
+    // A large film takes seconds to prepare.
+    constexpr std::uint64_t kManyPixels = 1u << 24;
+    const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
+    if (!resumed && (style == Progress::Style::kBar || pixels >= kManyPixels)) {
+        progress.begin(static_cast<double>(samplesInAll(scene, control)));
+    }
     control.onStart = deferSignals;
     control.onProgress = [&](const RenderProgress& p) {
         if (p.samplesTotal == 0) return true;  // all samples were resumed
@@ -279,8 +286,9 @@ void runRender(const RenderOptions& options) {
     std::vector<std::string> warnings = resultWarnings(scene, control, output, failure.has_value());
     // The warning requires at least one sample of every pixel.
     if (!failure && output.film.totalSamples() + output.film.lightPaths() >= output.film.samples().size()) {
-        const std::string dark = darkPictureWarning(scene, output.film.rows(), options.exposure);
-        if (!dark.empty()) warnings.push_back(dark);
+        const bool clips = std::any_of(outputs.begin(), outputs.end(), isPngPath);
+        const std::string exposure = exposureWarning(scene, output.film.rows(), options.exposure, clips);
+        if (!exposure.empty()) warnings.push_back(exposure);
     }
     for (const std::string& warning : warnings) {
         warn(warning);

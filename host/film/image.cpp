@@ -85,6 +85,11 @@ bool isImagePath(const std::filesystem::path& path) {
     return formatOf(path) != nullptr;
 }
 
+bool isPngPath(const std::filesystem::path& path) {
+    const Format* const format = formatOf(path);
+    return format != nullptr && std::string_view(format->extension) == ".png";
+}
+
 ImageRows rowsOf(const RadianceImage& image) {
     assert(image.visible.size() == std::size_t{image.width} * image.height);
     assert(image.invisible.size() == image.visible.size());

@@ -40,6 +40,9 @@ struct ImageOptions {
 /// True if writeImage supports the extension: .exr .png .pfm (case-insensitive).
 bool isImagePath(const std::filesystem::path& path);
 
+/// True if the extension is that of a format that applies the exposure and clamps to [0, 1]: .png.
+bool isPngPath(const std::filesystem::path& path);
+
 /// Writes by extension, atomically. EXR: float R G B (displayed), invisible.R/G/B, visible.R/G/B.
 /// PNG: 8 bit sRGB after exposure, clamped. PFM: float RGB (displayed). Throws MachineError.
 void writeImage(const std::filesystem::path& path, const ImageRows& rows, const ImageOptions& options);

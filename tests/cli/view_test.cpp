@@ -55,7 +55,8 @@ class ViewCommand : public testing::Test {
 TEST_F(ViewCommand, PicturesThatAreFineBringNoWarning) {
     const std::string lit = std::string(kFloor) + "usemtl lamp\n" + kDown;
     EXPECT_EQ(render(lit, {}).err, "");
-    EXPECT_EQ(render(box("2", "0", "2") + "usemtl lamp\n" + kDown, {}).err, "");
+    // In a closed room the lamp is too bright for a PNG without an exposure.
+    EXPECT_EQ(render(box("2", "0", "2") + "usemtl lamp\n" + kDown, {"--exposure", "-2"}).err, "");
 }
 
 TEST_F(ViewCommand, DarkPicturesNameTheirCause) {
@@ -82,6 +83,22 @@ TEST_F(ViewCommand, DarkPicturesNameTheirCause) {
                 HasSubstr("try more --bounces"));
     const ProgramResult dark = render(kFloor, {"--no-lamp"});
     EXPECT_EQ(dark.err, "duolux: warning: nothing emits light: the picture will be black\n");
+}
+
+TEST_F(ViewCommand, OverexposedPicturesNameTheExposure) {
+    const std::string bright = "mtllib b.mtl\n" + std::string(kFloor) + "usemtl bright\n" + kDown;
+    std::ofstream(folder_.path() / "b.mtl") << "newmtl bright\nKe 5000 5000 5000\n";
+    const std::string err = render(bright, {}).err;
+    EXPECT_THAT(err,
+                testing::MatchesRegex("duolux: warning: [0-9]+ % of what is lit in the picture is brighter "
+                                      "than white and clipped; try --exposure -[0-9.]+\n"));
+    const std::string exposure = err.substr(err.rfind(' ') + 1, err.size() - err.rfind(' ') - 2);
+    EXPECT_EQ(render(bright, {"--exposure", exposure}).err, "");
+    EXPECT_THAT(render(bright, {"--exposure", "-40"}).err,
+                HasSubstr("all of it is very dark; try --exposure -"));
+    const ProgramResult exr = runDuolux(folder_.path(), {"render", "m.obj", "--quiet", "--device", "cpu",
+                                                         "--size", "16x16", "--spp", "4", "-o", "out.exr"});
+    EXPECT_EQ(exr.err, "") << "nothing is clipped there";
 }
 
 TEST_F(ViewCommand, AnEmitterThatIsNotVisibleIsBlackByDesign) {
