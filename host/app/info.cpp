@@ -109,7 +109,7 @@ void printGeometry(const Scene& scene) {
 }
 
 void printView(const Scene& scene) {
-    printField("camera", cameraJson(scene));
+    printField("camera", onOneLine(cameraOf(scene)));
     printField("picture",
                fmt::format("{}x{}, {} spp, {} bounces, seed {}", scene.render.width, scene.render.height,
                            scene.render.spp, scene.render.bounces, scene.render.seed));
@@ -117,12 +117,13 @@ void printView(const Scene& scene) {
     printField("reflectance", describeReflectance(scene.reflectance));
 }
 
-void printLights(const Scene& scene) {
+void printLights(const Scene& scene, const nlohmann::ordered_json& lamp) {
     const EmitterSummary lights = summariseEmitters(scene);
     printField("lights", fmt::format("{} emitting triangle{}, area {:.6g}", withSeparators(lights.triangles),
                                      lights.triangles == 1 ? "" : "s", lights.area));
     printField("power", fmt::format("invisible {}; visible {} (W in scene units)",
                                     colour(lights.invisiblePower, 6), colour(lights.visiblePower, 6)));
+    if (!lamp.is_null()) printField("added lamp", onOneLine(lamp));
 }
 
 void printMaterials(const Scene& scene) {
@@ -153,12 +154,12 @@ void printEnergy(const Scene& scene) {
     }
 }
 
-void printInfo(const Scene& scene) {
+void printInfo(const Scene& scene, const nlohmann::ordered_json& lamp) {
     printField("scene", printable(scene.source.string()));
     printField("hash", scene.hash);
     printGeometry(scene);
     printView(scene);
-    printLights(scene);
+    printLights(scene, lamp);
     printMaterials(scene);
     printEnergy(scene);
     if (!scene.warnings.empty()) fmt::print("\n");
@@ -186,11 +187,13 @@ void addInfoCommand(CLI::App& app) {
         SceneChoices choices = options->view.choices();
         if (options->strict) choices.reading = Reading::kStrict;
         Scene scene = loadScene(options->scene, choices);
+        const nlohmann::ordered_json lamp = addedLamp(scene);
         removeLamp(scene);
         if (options->json) {
-            fmt::print("{}\n", infoJson(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+            fmt::print("{}\n",
+                       infoJson(scene, lamp).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         } else {
-            printInfo(scene);
+            printInfo(scene, lamp);
         }
     });
 }

@@ -32,20 +32,6 @@ Json placeJson(const Scene& scene, const glm::vec3& place) {
     return scene.origin == glm::dvec3(0.0) ? toJson(place) : toJson(placeInFile(scene, place));
 }
 
-Json cameraOf(const Scene& scene) {
-    const Camera& camera = scene.camera;
-    Json json = {{"position", placeJson(scene, camera.position)},
-                 {"target", placeJson(scene, camera.target)},
-                 {"up", toJson(camera.up)}};
-    if (camera.type == CameraType::kOrthographic) {
-        json["type"] = nameOf(camera.type);
-        json["height"] = number(camera.height);
-    } else {
-        json["vfov"] = number(camera.vfov);
-    }
-    return json;
-}
-
 Json toJson(const Sides& sides) {
     return nameOf(sides);
 }
@@ -89,9 +75,39 @@ glm::dvec3 placeInFile(const Scene& scene, const glm::vec3& place) {
     return result;
 }
 
-std::string cameraJson(const Scene& scene) {
+Json cameraOf(const Scene& scene) {
+    const Camera& camera = scene.camera;
+    Json json = {{"position", placeJson(scene, camera.position)},
+                 {"target", placeJson(scene, camera.target)},
+                 {"up", toJson(camera.up)}};
+    if (camera.type == CameraType::kOrthographic) {
+        json["type"] = nameOf(camera.type);
+        json["height"] = number(camera.height);
+    } else {
+        json["vfov"] = number(camera.vfov);
+    }
+    return json;
+}
+
+Json addedLamp(const Scene& scene) {
+    const Geometry& geometry = scene.geometry;
+    const std::size_t first = scene.content.triangles;
+    if (geometry.triangles.size() == first) return nullptr;
+    // Its two triangles share the first corner, as those of all rectangles.
+    const glm::uvec3 corners = geometry.triangles[first];
+    const glm::vec3 origin = geometry.positions[corners.x];
+    const glm::vec3 next = geometry.positions[corners.y], opposite = geometry.positions[corners.z];
+    const Emission& emission = scene.materials[geometry.materials[first]].emission;
+    return {{"type", "rectangle"},
+            {"origin", placeJson(scene, origin)},
+            {"edge1", toJson(next - origin)},
+            {"edge2", toJson(opposite - next)},
+            {"emission", {{"invisible", toJson(emission.invisible)}}}};
+}
+
+std::string onOneLine(const Json& json) {
     std::string text;
-    for (const char c : cameraOf(scene).dump()) {
+    for (const char c : json.dump()) {
         text += c;
         if (c == ',' || c == ':') text += ' ';
     }
@@ -133,7 +149,7 @@ LargestFactor largestFactor(const Scene& scene) {
     return largest;
 }
 
-Json infoJson(const Scene& scene) {
+Json infoJson(const Scene& scene, const Json& lamp) {
     const Geometry& geometry = scene.geometry;
     const Bounds bounds = boundsOf(geometry);
     const EmitterSummary lights = summariseEmitters(scene);
@@ -161,6 +177,7 @@ Json infoJson(const Scene& scene) {
         {"triangles", lights.triangles},
         {"area", lights.area},
         {"power", {{"invisible", toJson(lights.invisiblePower)}, {"visible", toJson(lights.visiblePower)}}}};
+    info["added_lamp"] = lamp;
     info["materials"] = materialsOf(scene);
     info["energy"] = {{"mean_albedo", toJson(meanAlbedo(scene))},
                       {"largest_factor", number(largest.factor)},

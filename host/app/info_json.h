@@ -7,14 +7,20 @@
 
 namespace duolux {
 
-/// All that `duolux info` tells of a scene, for scripts.
-nlohmann::ordered_json infoJson(const Scene& scene);
+/// All that `duolux info` tells of a scene, for scripts. `lamp`: of addedLamp().
+nlohmann::ordered_json infoJson(const Scene& scene, const nlohmann::ordered_json& lamp);
+
+/// The lamp that was added to a scene, as an entry of a scene file's "lights"; null if there is none.
+nlohmann::ordered_json addedLamp(const Scene& scene);
 
 /// A place of the scene in the coordinates of its file, with as many digits as give the same place again.
 glm::dvec3 placeInFile(const Scene& scene, const glm::vec3& place);
 
-/// The camera as scene files give it, on one line.
-std::string cameraJson(const Scene& scene);
+/// The camera as scene files give it.
+nlohmann::ordered_json cameraOf(const Scene& scene);
+
+/// JSON on one line, with blanks.
+std::string onOneLine(const nlohmann::ordered_json& json);
 
 /// Bytes of geometry on the host.
 std::size_t memoryOf(const Geometry& geometry);

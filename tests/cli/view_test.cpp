@@ -135,6 +135,33 @@ TEST_F(ViewCommand, InfoShowsTheCameraAsASceneFileGivesIt) {
     EXPECT_EQ(info["materials"][0]["diffuse"][0], 0.8);
 }
 
+TEST_F(ViewCommand, InfoShowsTheLampThatRenderAdds) {
+    for (const std::string& obj : {std::string(kFloor), box("2", "0", "2")}) {
+        ASSERT_EQ(render(obj, {"-o", "a.exr"}).status, 0);
+        const ProgramResult result = runDuolux(folder_.path(), {"info", "m.obj", "--json"});
+        ASSERT_EQ(result.status, 0) << result.err;
+        const nlohmann::json info = nlohmann::json::parse(result.out);
+        EXPECT_EQ(info["lights"]["triangles"], 0) << "the file has none";
+        EXPECT_THAT(runDuolux(folder_.path(), {"info", "m.obj"}).out,
+                    HasSubstr("added lamp   {\"type\": \"rectangle\", "));
+        nlohmann::json scene = {{"duolux", 1}, {"objects", {{{"mesh", "m.obj"}}}}};
+        scene["camera"] = info["camera"];
+        scene["lights"] = {info["added_lamp"]};
+        std::ofstream(folder_.path() / "s.json") << scene;
+        const ProgramResult pasted =
+            runDuolux(folder_.path(), {"render", "s.json", "--quiet", "--device", "cpu", "--size", "16x16",
+                                       "--spp", "4", "-o", "b.exr"});
+        EXPECT_EQ(pasted.status, 0);
+        EXPECT_EQ(pasted.err, "");
+        const ProgramResult compared =
+            runDuolux(folder_.path(), {"compare", "a.exr", "b.exr", "--fail-above", "rmse=1e-3"});
+        EXPECT_EQ(compared.status, 0) << compared.out;
+    }
+    render(std::string(kFloor) + "usemtl lamp\n" + kDown, {});
+    const ProgramResult lit = runDuolux(folder_.path(), {"info", "m.obj", "--json"});
+    EXPECT_TRUE(nlohmann::json::parse(lit.out)["added_lamp"].is_null());
+}
+
 TEST_F(ViewCommand, FarFromTheOriginACameraCanStillBePasted) {
     std::ofstream(folder_.path() / "m.obj") << "v 1000000000000 5 1000000002000.25\nv 1000000000003.5 5 "
                                                "1000000002000\nv 1000000000000 8 1000000002000\nf 1 2 3\n";
