@@ -14,7 +14,7 @@ namespace duolux {
 namespace {
 
 /// How many times as far away as the bulk the outliers must be: few of them, and many.
-constexpr double kNarrowGap = 4.0, kWideGap = 16.0;
+constexpr double kNarrowGap = 8.0, kWideGap = 32.0;
 
 struct Corners {
     glm::dvec3 a, b, c;
