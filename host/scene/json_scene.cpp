@@ -110,10 +110,15 @@ void readRender(const JsonNode& node, RenderSettings& render) {
 
 glm::vec2 readDisplay(const JsonNode& node) {
     constexpr double kLargest = 1e6;
-    const char* const remedy = "expected [invisible, visible], the two weights of the displayed radiance";
+    const std::string remedy = fmt::format(
+        "expected [invisible, visible], the two weights of the displayed radiance, from 0 to {:g}, not both "
+        "0",
+        kLargest);
     const std::vector<JsonNode> row = node.elements(remedy, 2);
-    return {static_cast<float>(row[0].number(-kLargest, kLargest, remedy)),
-            static_cast<float>(row[1].number(-kLargest, kLargest, remedy))};
+    const glm::vec2 display(static_cast<float>(row[0].number(0.0, kLargest, remedy)),
+                            static_cast<float>(row[1].number(0.0, kLargest, remedy)));
+    if (display == glm::vec2(0.0f)) node.fail("is [0, 0], which makes every picture black", remedy);
+    return display;
 }
 
 glm::dmat4 readTransform(const JsonNode& node) {
@@ -140,12 +145,15 @@ glm::dmat4 readTransform(const JsonNode& node) {
 
 fs::path readMeshPath(const JsonNode& node) {
     const char* const remedy = "expected the path of an .obj file, relative to the scene file";
-    const fs::path path = node.text(remedy);
+    const fs::path folder = node.file().parent_path();
+    fs::path path = node.text(remedy);
+    std::error_code ec;
+    // From another system, as MTL files of OBJ files.
+    if (!fs::exists(folder / path, ec)) path = withSlashes(path.string());
     if (path.native().find('\0') != std::string::npos) node.failValue(remedy);
     if (path.extension() != ".obj" && path.extension() != ".OBJ") node.failValue(remedy);
     constexpr std::size_t kLongest = 200;
-    fs::path file = node.file().parent_path() / path;
-    std::error_code ec;
+    fs::path file = folder / path;
     if (!fs::is_regular_file(file, ec))
         node.fail(fmt::format("there is no file {}", shortened(file.string(), kLongest)), remedy);
     return file;

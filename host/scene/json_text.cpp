@@ -37,9 +37,13 @@ class KeyWatch : public nlohmann::json_sax<json> {
     bool start_array(std::size_t) override { return open(true); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
-    /// json::parse reports the error.
-    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
-        return false;
+    /// json::parse reports syntax errors.
+    bool parse_error(std::size_t, const std::string& token,
+                     const nlohmann::detail::exception& error) override {
+        if (dynamic_cast<const json::out_of_range*>(&error) == nullptr) return false;
+        beginElement();
+        throw InputError(file_, path(), "is " + shortened(token),
+                         "expected a number that a computer can hold, of at most 1e308 in magnitude");
     }
 
     bool key(string_t& key) override {

@@ -21,13 +21,13 @@ bool isFile(const fs::path& path) {
     return fs::is_regular_file(path, ec);
 }
 
-std::string withSlashes(std::string_view name) {
-    std::string result(name);
+}  // namespace
+
+std::string withSlashes(std::string_view path) {
+    std::string result(path);
     std::replace(result.begin(), result.end(), '\\', '/');
     return result;
 }
-
-}  // namespace
 
 std::optional<fs::path> MaterialFiles::find(const fs::path& folder, std::string_view name) {
     if (name.empty()) return std::nullopt;

@@ -14,6 +14,9 @@
 
 namespace duolux {
 
+/// A path with slashes in place of backslashes.
+std::string withSlashes(std::string_view path);
+
 /// The MTL files that the meshes of a scene name. Each file is searched for and read once.
 class MaterialFiles {
   public:

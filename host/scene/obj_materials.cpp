@@ -74,9 +74,7 @@ std::vector<fs::path> ObjMaterials::filesOf(std::string_view names) {
 
 void ObjMaterials::noteMissing(std::string_view name) {
     if (missing_++ > 0) return;
-    std::string path(name);
-    std::replace(path.begin(), path.end(), '\\', '/');
-    firstMissing_ = mesh_.parent_path() / path;
+    firstMissing_ = mesh_.parent_path() / withSlashes(name);
     if (files_.reading() != Reading::kStrict) return;
     const auto nearest = files_.nearestName(firstMissing_->parent_path(), firstMissing_->filename().string());
     throw InputError(firstMissing_->string(), "", "no such file",

@@ -22,7 +22,13 @@ namespace duolux {
 
 namespace {
 
-constexpr const char* kNothingEmits = "nothing emits light: the picture will be black";
+/// The warning for a scene without emitters.
+std::string whyBlack(const Scene& scene) {
+    return fmt::format("{}: the picture will be black",
+                       anySurfaceScatters(scene)
+                           ? "nothing emits light"
+                           : "all surfaces are black: they neither reflect nor emit light");
+}
 
 SceneFile readObjScene(const std::filesystem::path& path, Reading reading) {
     Scene scene;
@@ -124,7 +130,7 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
                             (choices.lamp == Lamp::kIfDark && !read.hasLights && anySurfaceScatters(scene));
     if (camera.complete() && !mayAddLamp) {
         scene.camera = completeCamera(camera);
-        if (!emits) scene.warnings.emplace_back(kNothingEmits);
+        if (!emits) scene.warnings.push_back(whyBlack(scene));
         if (emits) warnOfEmitters(scene, Surface(scene, read.framedTriangles));
         return;
     }
@@ -134,7 +140,7 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
     if (choices.lamp == Lamp::kAlways) {
         view.addLamp();
     } else if (!mayAddLamp) {
-        if (!emits) scene.warnings.emplace_back(kNothingEmits);
+        if (!emits) scene.warnings.push_back(whyBlack(scene));
     } else if (!emits) {
         view.addLamp();
         scene.warnings.push_back(fmt::format("nothing emits light: {}", out));

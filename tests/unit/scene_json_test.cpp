@@ -52,7 +52,7 @@ TEST_F(JsonTest, EveryKey) {
         "camera": {"position": [1, 2, 3], "target": [4, 5, -6], "up": [0, 0, 2], "vfov": 39.5},
         "film": {"width": 640, "height": 1},
         "render": {"spp": 16777216, "bounces": 0, "seed": 4294967295, "sampler": "independent"},
-        "display": [1, -0.5],
+        "display": [1, 0.5],
         "reflectance": {"blend": [0.25, 0.75]},
         "materials": {"white": {"diffuse": 0.25, "sides": "front", "reflectance": {"preset": "local"}},
                       "lamp": {"emission": {"visible": [0, 0, 0.5], "sides": "both"}}})");
@@ -66,7 +66,7 @@ TEST_F(JsonTest, EveryKey) {
     EXPECT_EQ(scene.render.bounces, 0u);
     EXPECT_EQ(scene.render.seed, 4294967295u);
     EXPECT_EQ(scene.render.sampler, Sampler::kIndependent);
-    EXPECT_EQ(scene.display, glm::vec2(1.0f, -0.5f));
+    EXPECT_EQ(scene.display, glm::vec2(1.0f, 0.5f));
     EXPECT_EQ(scene.reflectance, blendReflectance(0.25f, 0.75f));
     const Material& white = material(scene, "white");
     EXPECT_EQ(white.diffuse, glm::vec3(0.25f));
@@ -158,7 +158,7 @@ TEST_F(JsonTest, SyntaxErrorsGiveLineAndColumn) {
         StartsWith("scene.json: line 3, column 12: syntax error while parsing object key - unexpected ','"));
     EXPECT_THAT(errorOfJson(""), StartsWith("scene.json: line 1, column 1: syntax error"));
     EXPECT_THAT(errorOfJson("{\"duolux\": 1"), StartsWith("scene.json: line 1, column 13: syntax error"));
-    EXPECT_THAT(errorOfJson("{\"duolux\": 1e999}"), HasSubstr("number overflow"));
+    EXPECT_THAT(errorOfJson("{\"duolux\": 1e999}"), HasSubstr("duolux: is 1e999"));
     EXPECT_THAT(errorOfJson("{\"duolux\": \"\xff\"}"),
                 StartsWith("scene.json: line 1, column 13: syntax error"));
 }
@@ -217,6 +217,11 @@ TEST_F(JsonTest, NumbersAreChecked) {
     EXPECT_THAT(errorWith(R"("render": {"spp": true})"), HasSubstr("render.spp: is true"));
     EXPECT_THAT(errorWith(R"("render": {"sampler": "halton"})"),
                 HasSubstr("render.sampler: is \"halton\"; expected one of \"sobol\", \"independent\""));
+    EXPECT_THAT(
+        errorWith(R"("display": [0, 0])"),
+        HasSubstr("display: is [0, 0], which makes every picture black; expected [invisible, visible]"));
+    EXPECT_THAT(errorWith(R"("display": [1, -0.5])"),
+                HasSubstr("display[1]: is -0.5; expected [invisible, visible]"));
     EXPECT_THAT(errorWith(R"("display": [1])"),
                 HasSubstr("display: is an array of 1; expected [invisible, visible]"));
 }
@@ -276,9 +281,30 @@ TEST_F(JsonTest, ObjectsAreChecked) {
                 HasSubstr("moves the mesh out of range"));
 }
 
+TEST_F(JsonTest, NumbersThatOverflowAreNamed) {
+    EXPECT_THAT(errorWith(R"("lights": [{"type": "rectangle"}, {"emission": {"visible": [1, -1e999, 1]}}])"),
+                HasSubstr("scene.json: lights[1].emission.visible[1]: is -1e999; expected a number"));
+    EXPECT_THAT(errorWith(R"("camera": {"vfov": 1e400})"), HasSubstr("scene.json: camera.vfov: is 1e400"));
+}
+
+TEST_F(JsonTest, MeshPathsMayHaveBackslashes) {
+    std::filesystem::create_directories(folder_ / "meshes");
+    write("meshes/a.obj", kTriangleObj);
+    EXPECT_EQ(loadJson(R"({"duolux": 1, "objects": [{"mesh": "meshes\\a.obj"}], "lights": []})")
+                  .geometry.triangles.size(),
+              1u);
+    write("meshes\\a.obj", std::string(kTriangleObj) + "f 1 3 2\n");
+    EXPECT_EQ(loadJson(R"({"duolux": 1, "objects": [{"mesh": "meshes\\a.obj"}], "lights": []})")
+                  .geometry.triangles.size(),
+              2u)
+        << "a file of exactly this name comes first";
+    EXPECT_THAT(errorOfJson(R"({"duolux": 1, "objects": [{"mesh": "meshes\\b.obj"}]})"),
+                HasSubstr("objects[0].mesh: there is no file "));
+}
+
 TEST_F(JsonTest, StatedLimitsAreAccepted) {
     const Scene scene =
-        loadJson(R"({"duolux": 1, "display": [1e6, -1e6], "reflectance": {"opaque": [[1e6, 0], [0, 0]],
+        loadJson(R"({"duolux": 1, "display": [1e6, 1e6], "reflectance": {"opaque": [[1e6, 0], [0, 0]],
         "transparent": [[0, 0], [0, 0]]}, "lights": [{"type": "rectangle", "origin": [0, 0, 0], "edge1": [1e9, 0, 0],
         "edge2": [0, 1e9, 0], "emission": {"invisible": 1e12, "visible": [1e12, 0, 1e12]}}]})");
     EXPECT_EQ(scene.materials[0].emission.invisible, glm::vec3(1e12f));

@@ -100,7 +100,8 @@ TEST_F(LightTest, IsNotAddedWhereNoSurfaceScatters) {
     write("mesh.obj", "mtllib m.mtl\nusemtl black\n" + std::string(kTriangleObj));
     const Scene dark = load("mesh.obj");
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
-    EXPECT_THAT(dark.warnings, testing::ElementsAre(HasSubstr("the picture will be black")));
+    EXPECT_THAT(dark.warnings, testing::ElementsAre("all surfaces are black: they neither reflect nor emit "
+                                                    "light: the picture will be black"));
     // Surfaces that only pass light on, before a dim emitter that is seen as it is.
     write("mesh.obj", "mtllib m.mtl\nusemtl dim\n" + std::string(kTriangleObj) + "usemtl grey\nf 1 3 2\n");
     const Scene seen = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "reflectance":
