@@ -82,6 +82,7 @@ class PointTree {
         std::ptrdiff_t on = 0;              ///< number of enabled points
         bool isLeaf = true;
 
+        double area() const { return (ownUpper.x - ownLower.x) * (ownUpper.y - ownLower.y); }
         glm::dvec2 own(const glm::dvec2& p) const {
             return {along.x * p.x + along.y * p.y, along.x * p.y - along.y * p.x};
         }
@@ -98,17 +99,43 @@ class PointTree {
                 leafOf_[order_[i]] = index;
             return;
         }
-        const glm::dvec2 size = node.upper - node.lower;
-        const int axis = size.x >= size.y ? 0 : 1;
         const std::size_t middle = begin + (end - begin) / 2;
-        const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-        // Ties are broken by index, so that the tree does not depend on the standard library.
-        std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t p, std::uint32_t q) {
-            const double x = points_[p][axis], y = points_[q][axis];
-            return x < y || (x == y && p < q);
-        });
+        split(node);
         build(2 * index, begin, middle);
         build(2 * index + 1, middle, end);
+    }
+
+    /// Halves the points of a node along the longer axis, or across their main direction if the halves then
+    /// cover much less area: the two sides of a long strip are better apart.
+    void split(const Node& node) {
+        const glm::dvec2 size = node.upper - node.lower;
+        const int axis = size.x >= size.y ? 0 : 1;
+        const double lengthwise = halve(node, [&](const glm::dvec2& point) { return point[axis]; });
+        constexpr double kMuchLess = 0.5;
+        if (lengthwise <= kMuchLess * node.area()) return;
+        const double across = halve(node, [&](const glm::dvec2& point) { return node.own(point).y; });
+        if (across > kMuchLess * lengthwise)
+            halve(node, [&](const glm::dvec2& point) { return point[axis]; });
+    }
+
+    /// Halves the points of a node by a coordinate. Returns the area of the two boxes along the main
+    /// directions of the halves.
+    template <typename Coordinate>
+    double halve(const Node& node, const Coordinate& coordinate) {
+        const std::size_t middle = node.begin + (node.end - node.begin) / 2;
+        const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+        // Ties are broken by index, so that the tree does not depend on the standard library.
+        std::nth_element(at(node.begin), at(middle), at(node.end), [&](std::uint32_t p, std::uint32_t q) {
+            const double x = coordinate(points_[p]), y = coordinate(points_[q]);
+            return x < y || (x == y && p < q);
+        });
+        Node left, right;
+        left.begin = node.begin;
+        left.end = right.begin = middle;
+        right.end = node.end;
+        bound(left);
+        bound(right);
+        return left.area() + right.area();
     }
 
     void bound(Node& node) const {

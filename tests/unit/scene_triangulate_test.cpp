@@ -233,6 +233,31 @@ TEST(Triangulate, LinesAcrossTheAxesTakeNoLonger) {
     }
 }
 
+TEST(Triangulate, LongStripsTakeNoLonger) {
+    constexpr int kCorners = 50'000, kAlong = kCorners / 2;
+    for (const double ripple : {0.0, 1e-4, 0.02}) {
+        for (const double angle : {0.0, 0.4}) {
+            std::vector<glm::dvec2> strip;
+            for (int i = 0; i < kCorners; ++i) {
+                const bool back = i >= kAlong;
+                const double x = 0.3 * (back ? kCorners - 1 - i : i);
+                const double y = ripple * std::sin(0.05 * x) + (back ? 1.0 : 0.0);
+                strip.emplace_back(x * std::cos(angle) - y * std::sin(angle),
+                                   x * std::sin(angle) + y * std::cos(angle));
+            }
+            std::vector<Triangle> triangles;
+            const std::clock_t start = std::clock();
+            clipEars(strip, triangles);
+            EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.0)
+                << "where boxes hold both sides of the strip it takes 10 to 30: " << ripple << ' ' << angle;
+            double area = 0.0;
+            for (const auto& [a, b, c] : triangles)
+                area += turnAt(strip[a], strip[b], strip[c]);
+            EXPECT_NEAR(area, 2.0 * 0.3 * (kAlong - 1), 1e-6 * area);
+        }
+    }
+}
+
 TEST(Triangulate, CornersAtTheSamePlacesTakeNoLonger) {
     Polygon polygon;
     for (int i = 0; i < 100'000; ++i)
