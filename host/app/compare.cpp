@@ -196,7 +196,7 @@ void addCompareCommand(CLI::App& app) {
         ->add_option("--transfer", arguments->transfer,
                      "Displayed values: srgb-encoded as in PNG files, or linear as in the paper; eps and "
                      "PSNR use them")
-        ->check(CLI::IsMember({"srgb", "linear"}))
+        ->check(oneOf({"srgb", "linear"}))
         ->capture_default_str()
         ->type_name("NAME");
     addThreadsOption(*command);

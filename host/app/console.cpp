@@ -44,4 +44,11 @@ void printResult(std::string_view text) {
     throw MachineError(fmt::format("standard output: cannot write: {}", reason));
 }
 
+void printHelp(std::string_view text) {
+    errno = 0;
+    const bool written =
+        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (!written && errno == EPIPE) std::clearerr(stdout);
+}
+
 }  // namespace duolux

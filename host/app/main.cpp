@@ -5,8 +5,12 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "host/app/commands.h"
 #include "host/app/console.h"
@@ -66,10 +70,15 @@ int run(int argc, char** argv) {
     duolux::addSheetCommand(app);
     try {
         checkCommand(app, argc, argv);
-        app.parse(argc, argv);
+        std::vector<std::string> arguments = duolux::argumentsOf(argc, argv);
+        std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+        app.parse(std::move(arguments));
         return static_cast<int>(duolux::ExitStatus::kDone);
     } catch (const CLI::Success& e) {
-        return app.exit(e);  // --help, --version
+        std::ostringstream text;  // of --help or --version
+        const int status = app.exit(e, text, text);
+        duolux::printHelp(text.str());
+        return status;
     } catch (const CLI::ParseError& e) {
         return report(duolux::describeParseError(app, e), duolux::ExitStatus::kUsage);
     }

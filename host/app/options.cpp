@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <string_view>
+#include <utility>
 
 #include "host/base/error.h"
+#include "host/base/printable.h"
 #include "host/scene/nearest_name.h"
 
 namespace duolux {
@@ -25,6 +30,24 @@ std::optional<std::pair<T, T>> parsePair(const std::string& text, char separator
         return std::nullopt;
     }
     return values;
+}
+
+std::string_view withoutComma(std::string_view word) {
+    return word.ends_with(',') ? word.substr(0, word.size() - 1) : word;
+}
+
+bool isNumber(std::string_view word) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && end == word.data() + word.size();
+}
+
+/// What an option expects, in the words of --help: "N, from 1 to 16777216".
+std::string expectationOf(const CLI::Option& option) {
+    std::string type = option.get_type_name();
+    const std::size_t colon = type.find(':');
+    if (colon != std::string::npos) type.replace(colon, 1, type[colon + 1] == '{' ? ", one of " : ", ");
+    return type;
 }
 
 }  // namespace
@@ -81,9 +104,36 @@ CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper) {
 CLI::Validator notEmpty() {
     return CLI::Validator(
         [](std::string& text) {
-            return text.empty() ? std::string("expected a value, not an empty text") : std::string();
+            if (text.empty()) return std::string("expected a value, not an empty text");
+            return text.starts_with("--") ? fmt::format("expected a value, not {}", text) : std::string();
         },
         "");
+}
+
+CLI::Validator oneOf(std::vector<std::string> names) {
+    const std::string list = fmt::format("{{{}}}", fmt::join(names, ","));
+    return CLI::Validator(
+        [names = std::move(names)](std::string& text) {
+            const bool known = std::find(names.begin(), names.end(), text) != names.end();
+            return known ? std::string() : fmt::format("is {}; {}", inQuotes(text), suggestName(text, names));
+        },
+        list);
+}
+
+std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
+    constexpr std::array<std::string_view, 3> kVectors{"--camera-position", "--look-at", "--up"};
+    std::vector<std::string> arguments;
+    for (int i = 1; i < argc; ++i) {
+        arguments.emplace_back(argv[i]);
+        if (std::find(kVectors.begin(), kVectors.end(), arguments.back()) == kVectors.end() || i + 3 >= argc)
+            continue;
+        const auto x = withoutComma(argv[i + 1]), y = withoutComma(argv[i + 2]),
+                   z = withoutComma(argv[i + 3]);
+        if (!isNumber(x) || !isNumber(y) || !isNumber(z)) continue;
+        arguments.push_back(fmt::format("{},{},{}", x, y, z));
+        i += 3;
+    }
+    return arguments;
 }
 
 void addStrictOption(CLI::App& command, bool& strict) {
@@ -110,6 +160,18 @@ std::string describeParseError(const CLI::App& app, const CLI::ParseError& error
         for (const std::string& word : app.remaining(true)) {
             if (word.starts_with("--") && word != "--")
                 return fmt::format("{}: unknown option; {} {}", word, suggestName(word, known), help);
+        }
+        if (!command.get_allow_extras()) {
+            std::vector<std::string> words = app.remaining(true);
+            std::reverse(words.begin(), words.end());  // as the error lists them
+            return fmt::format("{} {}", CLI::ExtrasError(command.get_name(), words).what(), help);
+        }
+    }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        const std::string what = error.what(), name = what.substr(0, what.find(':'));
+        if (const CLI::Option* const option = command.get_option_no_throw(name)) {
+            return fmt::format("{}: its value is missing; expected {} {}", name, expectationOf(*option),
+                               help);
         }
     }
     return fmt::format("{} {}", error.what(), help);

@@ -28,8 +28,15 @@ SampleRange parseSampleRange(const std::string& text);
 CLI::Validator between(double lower, double upper);
 CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);
 
-/// Rejects an empty text, for example from an unset variable in a script.
+/// Rejects an empty text, for example from an unset variable in a script, and the name of another option.
 CLI::Validator notEmpty();
+
+/// Accepts only these names; suggests the most similar one.
+CLI::Validator oneOf(std::vector<std::string> names);
+
+/// The arguments of the program, without its name. Three numbers after --look-at and the like become one
+/// argument: `1 2 3` (or `1, 2, 3`) is `1,2,3`.
+std::vector<std::string> argumentsOf(int argc, const char* const* argv);
 
 /// Adds --strict, which turns tolerated errors in scene files into failures, to a command. `strict` must
 /// outlive the command.

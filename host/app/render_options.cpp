@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "host/app/machine_options.h"
@@ -29,7 +30,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
             .add_option("--preset", options.preset,
                         "Scene-wide reflectance of the paper (default: the scene's, or global)")
             ->type_name("NAME")
-            ->check(CLI::IsMember(names));
+            ->check(oneOf(names));
     command
         .add_option("--blend", options.blend,
                     "Scene-wide reflectance: any point T,O of the square between the presets "
@@ -57,19 +58,19 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
             "path: path tracer (default, unless the scene chooses); light: light tracer, which connects "
             "paths from the emitters to the camera; --spp is then the number of light paths per pixel")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"path", "light"}));
+        ->check(oneOf({"path", "light"}));
     command
         .add_option("--sampler", options.sampler,
                     "Owen-scrambled Sobol points (default), or independent random numbers")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"sobol", "independent"}));
+        ->check(oneOf({"sobol", "independent"}));
     command
         .add_option(
             "--direct-light", options.directLight,
             "Direct light in the path tracer: sampled; closed-form: without noise, only where nothing blocks "
             "emitters (local, shadowless); auto (default): closed-form for local, otherwise sampled")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"auto", "sampled", "closed-form"}));
+        ->check(oneOf({"auto", "sampled", "closed-form"}));
     addDeviceOption(command, options.device);
     addThreadsOption(command);
     addTuningOptions(command, options.tuning);
@@ -122,7 +123,10 @@ void sortWords(const CLI::App& command, RenderOptions& options) {
     }
     options.scene = others.front();
     others.erase(others.begin());
-    if (!others.empty()) throw CLI::ExtrasError(command.get_name(), others);
+    if (others.empty()) return;
+    options.view.choices();                      // a vector of several words is the likelier mistake
+    std::reverse(others.begin(), others.end());  // as the error lists them
+    throw CLI::ExtrasError(command.get_name(), others);
 }
 
 }  // namespace duolux

@@ -73,7 +73,7 @@ void addSheetCommand(CLI::App& app) {
         ->allow_extra_args(false)
         ->take_all()
         ->type_name("TEXT");
-    command->add_option("images", options->images, "Images of one size")->required()->type_name("IMAGE");
+    command->add_option("IMAGE", options->images, "Images of one size")->required()->type_name("");
     command->callback([options] { runSheet(*options); });
 }
 

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "host/app/options.h"
+
 namespace duolux {
 
 namespace {
@@ -39,14 +41,14 @@ void addTuningOptions(CLI::App& command, TuningOptions& options) {
             "How rays find triangles: by a tree in texel buffers (default on CPUs) or in storage buffers "
             "(default on GPUs), or by the device's ray queries, see 'duolux devices'")
         ->type_name("NAME")
-        ->check(CLI::IsMember(namesOf(kLayouts)));
+        ->check(oneOf(namesOf(kLayouts)));
     command
         .add_option(
             "--kernel", options.kernel,
             "Lanes whose rays are done get new ones (refilling: default) or wait for the others (plain: "
             "always with ray queries)")
         ->type_name("NAME")
-        ->check(CLI::IsMember(namesOf(kKernels)));
+        ->check(oneOf(namesOf(kKernels)));
 }
 
 }  // namespace duolux

@@ -56,6 +56,10 @@ TEST_F(Streams, ResultsThatNobodyCanReadAreAnError) {
         EXPECT_THAT(result.err, HasSubstr("duolux: standard output: cannot write: "));
         EXPECT_TRUE(isPicture("a.png"));
     }
+    const ProgramResult help = shell("$D render --help | (exec <&-; sleep 0.1); echo ${PIPESTATUS[0]}");
+    EXPECT_EQ(help.out, "0\n");
+    EXPECT_EQ(help.err, "");
+    EXPECT_EQ(shell("$D render --help >/dev/full").status, 1);
     const ProgramResult left = shell("$D info q.obj | true; echo ${PIPESTATUS[0]}");
     EXPECT_EQ(left.out, "1\n");
     EXPECT_EQ(left.err, "duolux: standard output: cannot write: Broken pipe\n");

@@ -135,6 +135,21 @@ TEST_F(ViewCommand, InfoShowsTheCameraAsASceneFileGivesIt) {
     EXPECT_EQ(info["materials"][0]["diffuse"][0], 0.8);
 }
 
+TEST_F(ViewCommand, VectorsMayBeThreeWords) {
+    std::ofstream(folder_.path() / "m.obj") << "mtllib m.mtl\n" << kFloor;
+    const auto cameraOf = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"info", "--json"});
+        arguments.emplace_back("m.obj");
+        return nlohmann::json::parse(runDuolux(folder_.path(), std::move(arguments)).out)["camera"];
+    };
+    const nlohmann::json camera =
+        cameraOf({"--camera-position", "-1,.5,3", "--look-at", "0,1e-1,0", "--up", "0,0,1"});
+    EXPECT_EQ(camera["position"], nlohmann::json::parse("[-1.0, 0.5, 3.0]"));
+    EXPECT_EQ(cameraOf({"--camera-position", "-1", ".5", "3", "--look-at", "0,", "1e-1,", "0", "--up", "0",
+                        "0", "1"}),
+              camera);
+}
+
 TEST_F(ViewCommand, InfoShowsTheLampThatRenderAdds) {
     for (const std::string& obj : {std::string(kFloor), box("2", "0", "2")}) {
         ASSERT_EQ(render(obj, {"-o", "a.exr"}).status, 0);
