@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_duolux.h"
-#include "tests/support/address_space.h"
 
 namespace duolux::test {
 namespace {
@@ -52,8 +51,9 @@ TEST(NoDriver, SaysWhatToInstallWhereThereIsNone) {
                                       "mesa-vulkan-drivers, "));
 }
 
+// AddressSanitizer reserves more address space than any limit leaves.
+#ifndef __SANITIZE_ADDRESS__
 TEST(NoDriver, TooLittleAddressSpaceIsCalledSo) {
-    if (kAddressSanitizer) GTEST_SKIP() << "AddressSanitizer reserves more address space than any limit here";
     const TemporaryFolder folder;
     const ProgramResult result =
         runProgram("/bin/sh", folder.path(), {"-c", "ulimit -v 120000 && " DUOLUX_EXECUTABLE " devices"});
@@ -62,6 +62,7 @@ TEST(NoDriver, TooLittleAddressSpaceIsCalledSo) {
                                   HasSubstr("'ulimit -v'"), Not(HasSubstr("install"))));
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
 }
+#endif
 
 TEST(Threads, AnyNumberGivesTheSameBits) {
     const TemporaryFolder folder;

@@ -1,12 +1,15 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <grp.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -51,8 +54,7 @@ class FileTest : public testing::Test {
     /// In a process of a user without privileges who owns the folder and what is in it; returns its exit
     /// status.
     int asAnotherUser(const std::function<int()>& step) const {
-        const pid_t child = ::fork();
-        if (child == 0) {
+        return inAnotherProcess([&] {
             if (::geteuid() == 0) {
                 for (const auto& entry : fs::directory_iterator(folder_)) {
                     if (::chown(entry.path().c_str(), kNobody, kNobody) != 0) ::_exit(101);
@@ -62,6 +64,30 @@ class FileTest : public testing::Test {
                     ::_exit(102);
                 }
             }
+            return step();
+        });
+    }
+
+    /// In a process that may mount and whose mounts no other process sees; users without privileges need a
+    /// user namespace for this.
+    int whereMountsArePrivate(const std::function<int()>& step) const {
+        return inAnotherProcess([&] {
+            const uid_t user = ::geteuid();
+            const gid_t group = ::getegid();
+            if (::unshare(CLONE_NEWNS) != 0) {
+                if (::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) ::_exit(103);
+                write("/proc/self/setgroups", "deny");
+                write("/proc/self/uid_map", fmt::format("{0} {0} 1", user));
+                write("/proc/self/gid_map", fmt::format("{0} {0} 1", group));
+            }
+            if (::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) ::_exit(104);
+            return step();
+        });
+    }
+
+    static int inAnotherProcess(const std::function<int()>& step) {
+        const pid_t child = ::fork();
+        if (child == 0) {
             try {
                 ::_exit(step());
             } catch (const std::exception& e) {
@@ -187,42 +213,53 @@ TEST_F(FileTest, AFileOfAFolderWithoutPermissionIsWrittenInPlace) {
     EXPECT_EQ(filesInFolder(), 1u);
 }
 
-TEST_F(FileTest, AnotherUsersLinkInASharedFolderIsNotFollowed) {
-    if (::geteuid() != 0) GTEST_SKIP() << "needs another user's link";
+TEST_F(FileTest, OnlyOnesOwnLinksInASharedFolderAreFollowed) {
     write(folder_ / "victim", "old");
     fs::create_directory(folder_ / "shared");
     ASSERT_EQ(::chmod((folder_ / "shared").c_str(), 01777), 0);
     fs::create_symlink("../victim", folder_ / "shared/link");
     EXPECT_EQ(errorOf([&] { checkWritable(folder_ / "shared/link"); }), "");
+    writeFile(folder_ / "shared/link", "mine");
+    EXPECT_EQ(readFile(folder_ / "victim"), "mine");
+    if (::geteuid() != 0) return;  // only root can make another user's link
     ASSERT_EQ(::lchown((folder_ / "shared/link").c_str(), kNobody, kNobody), 0);
     EXPECT_THAT(errorOf([&] { writeFile(folder_ / "shared/link", "new"); }), HasSubstr("Permission denied"));
-    EXPECT_EQ(readFile(folder_ / "victim"), "old");
+    EXPECT_EQ(readFile(folder_ / "victim"), "mine");
 }
 
 TEST_F(FileTest, TheOwnerStaysWherePermitted) {
-    if (::geteuid() != 0) GTEST_SKIP() << "needs root";
     write(folder_ / "f", "old");
-    ASSERT_EQ(::chown((folder_ / "f").c_str(), kNobody, kNobody), 0);
+    // Users without privileges may give a file to another of their groups, if they have any.
+    uid_t user = ::geteuid();
+    gid_t group = ::getegid();
+    std::array<gid_t, 256> groups{};
+    const int count = ::getgroups(static_cast<int>(groups.size()), groups.data());
+    ASSERT_GE(count, 0);
+    if (user == 0) {
+        user = group = kNobody;
+    } else if (count > 0) {
+        group = groups[static_cast<std::size_t>(count - 1)];
+    }
+    ASSERT_EQ(::chown((folder_ / "f").c_str(), user, group), 0);
     writeFile(folder_ / "f", "new");
     struct stat status {};
     ASSERT_EQ(::stat((folder_ / "f").c_str(), &status), 0);
-    EXPECT_EQ(status.st_uid, kNobody);
-    EXPECT_EQ(status.st_gid, kNobody);
+    EXPECT_EQ(status.st_uid, user);
+    EXPECT_EQ(status.st_gid, group);
 }
 
 TEST_F(FileTest, AMountedFileIsWrittenInPlace) {
     write(folder_ / "outside", "a longer old file");
     write(folder_ / "inside", "");
-    if (::geteuid() != 0 || ::mount((folder_ / "outside").c_str(), (folder_ / "inside").c_str(), nullptr,
-                                    MS_BIND, nullptr) != 0) {
-        GTEST_SKIP() << "needs to mount";
-    }
-    EXPECT_EQ(errorOf([&] {
-                  checkWritable(folder_ / "inside");
-                  writeFile(folder_ / "inside", "new");
-              }),
-              "");
-    ::umount((folder_ / "inside").c_str());
+    const int status = whereMountsArePrivate([&] {
+        const fs::path outside = folder_ / "outside", inside = folder_ / "inside";
+        if (::mount(outside.c_str(), inside.c_str(), nullptr, MS_BIND, nullptr) != 0) return 105;
+        checkWritable(inside);
+        writeFile(inside, "new");
+        return readFile(inside) == "new" ? 0 : 1;
+    });
+    EXPECT_EQ(status, 0) << "exit status " << WEXITSTATUS(status);
+    EXPECT_EQ(readFile(folder_ / "inside"), "");
     EXPECT_EQ(readFile(folder_ / "outside"), "new");
     EXPECT_EQ(filesInFolder(), 2u);
 }
