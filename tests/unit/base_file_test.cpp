@@ -9,11 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <functional>
 #include <set>
+#include <span>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -237,8 +239,10 @@ TEST_F(FileTest, TheOwnerStaysWherePermitted) {
     ASSERT_GE(count, 0);
     if (user == 0) {
         user = group = kNobody;
-    } else if (count > 0) {
-        group = groups[static_cast<std::size_t>(count - 1)];
+    } else {
+        const auto others = std::span(groups).first(static_cast<std::size_t>(count));
+        const auto other = std::ranges::find_if(others, [&](gid_t g) { return g != group; });
+        if (other != others.end()) group = *other;
     }
     ASSERT_EQ(::chown((folder_ / "f").c_str(), user, group), 0);
     writeFile(folder_ / "f", "new");
