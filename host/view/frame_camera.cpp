@@ -82,7 +82,9 @@ class Framer {
             const std::optional<InsideView> inside = bestInsideView(surface_, samples_, lamps, axes_, aspect_,
                                                                     choice_.vfov, target_, outside.unseen);
             // From outside, a room looks like a block, and if all lamps are inside, like a dark one.
-            const float worth = outside.worth * (lamps.all() || outside.block ? 0.2f : 1.0f);
+            constexpr float kDarkWorth = 0.05f, kBlockWorth = 0.2f;
+            const float part = lamps.all() ? kDarkWorth : (outside.block ? kBlockWorth : 1.0f);
+            const float worth = part * outside.worth;
             if (inside && inside->worth > worth) return camera(inside->eye, inside->target, inside->vfov);
         }
         Frustum exact = outside.frustum;

@@ -80,6 +80,15 @@ TEST(ViewInside, ALampThatFacesTheCeilingIsAReasonToGoInside) {
     EXPECT_TRUE(isInside(framed(builder.scene).position, {2, 1, 2}));
 }
 
+TEST(ViewInside, WallsMayBeThickerThanTheRoomIsHigh) {
+    SceneBuilder builder;
+    const std::uint32_t material = builder.add(Material{});
+    builder.box({-4, -3, -4}, {4, 3, 4}, Facing::kOutward, material);
+    builder.box({-2, -1, -2}, {2, 1, 2}, Facing::kOutward, material);
+    addLamp(builder, false, 0.98f);
+    EXPECT_TRUE(isInside(framed(builder.scene).position, {2, 1, 2}));
+}
+
 TEST(ViewInside, SolidsAreSeenFromOutside) {
     EXPECT_FALSE(isInside(framed(boxScene({-1, -1, -1}, {1, 1, 1})).position, glm::vec3(1)));
     // A lamp outside of a closed body does not light it from within.
