@@ -10,6 +10,7 @@
 
 #include "host/app/info_json.h"
 #include "host/view/darkness.h"
+#include "host/view/emitter_sides.h"
 
 namespace duolux {
 
@@ -120,9 +121,10 @@ class Brightness {
 
 std::string overexposureWarning(const Brightness& brightness, float exposure) {
     constexpr double kMost = 0.5, kFew = 0.2;  // of the pixels that are lit
+    constexpr double kLeast = 0.05;            // of all pixels: a lamp alone may be as bright as it is
     const double lit = brightness.above(std::log2(kDarkestGrey) - exposure);
     const double clipped = brightness.above(-exposure);
-    if (!(clipped > kMost * lit)) return {};
+    if (!(clipped > kMost * lit) || lit < kLeast * brightness.pixels()) return {};
     const std::optional<float> bright = brightness.reachedBy(kFew * lit);
     // Their half stop must end below white.
     return fmt::format(
@@ -143,12 +145,11 @@ std::string exposureWarning(const Scene& scene, const ImageRows& rows, float exp
                fmt::format("all of it is very dark; try --exposure {:.0f}", std::ceil(-1.0f - *bright));
     }
     const DarkReason reason = whyDark(scene);
-    if (reason.darkness == Darkness::kNothingEmits && !scene.warnings.empty()) {
-        const bool said = std::any_of(scene.warnings.begin(), scene.warnings.end(), [](const std::string& w) {
-            return w.ends_with(": the picture will be black");
-        });
-        if (said) return {};
-    }
+    const bool said = std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const std::string& w) {
+        return (reason.darkness == Darkness::kNothingEmits && w.ends_with(": the picture will be black")) ||
+               (reason.darkness == Darkness::kFacingAway && w.find(kFaceAway) != std::string::npos);
+    });
+    if (said) return {};
     return dark + describe(scene, reason);
 }
 

@@ -85,10 +85,8 @@ std::vector<std::string> emitterWarnings(const Surface& surface, const Camera& c
         const bool away = emitters.away > 0.25 * emitters.area;
         const bool onlyBacks = emitters.backs > 0 && emitters.fronts == 0;
         if (!away && !(onlyBacks && emitters.evenly > 0.5 * emitters.area)) continue;
-        const char* const what =
-            !away ? "show the camera only their back sides"
-                  : (emitters.away > 0.9 * emitters.area ? "face away from what they could light"
-                                                         : "partly face away from what they could light");
+        std::string what = "show the camera only their back sides";
+        if (away) what = fmt::format("{}{}", emitters.away > 0.9 * emitters.area ? "" : "partly ", kFaceAway);
         warnings.push_back(fmt::format(
             "emitters (material {}) {}: they emit only from their front sides, on which the corners are "
             "counter-clockwise; turn them, or use \"sides\": \"both\" in the emission of a JSON "

@@ -7,6 +7,9 @@
 
 namespace duolux {
 
+/// Words of the warning about emitters that face away.
+inline constexpr const char* kFaceAway = "face away from what they could light";
+
 /// Warnings about emitters that emit only from their front sides: those whose back sides could light much
 /// more than their front sides do, and those whose back sides alone are in view, unless their front sides
 /// light more. One for each material.

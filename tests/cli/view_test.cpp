@@ -70,7 +70,9 @@ TEST_F(ViewCommand, DarkPicturesNameTheirCause) {
     EXPECT_THAT(render(std::string(kFloor) + "usemtl lamp\n" + kUp,
                        {"--no-lamp", "--camera-position", "3,0.5,0", "--look-at", "1.5,0,0", "--vfov", "20"})
                     .err,
-                testing::AllOf(HasSubstr("material \"lamp\") face away"), HasSubstr("counter-clockwise")));
+                testing::AllOf(HasSubstr("material \"lamp\") face away"), HasSubstr("counter-clockwise"),
+                               Not(HasSubstr("1 %"))))
+        << "said once";
     EXPECT_THAT(render(kFloor + box("0.9", "0.8", "1.2") + "usemtl lamp\n" + kDown,
                        {"--no-lamp", "--camera-position", "0,9,1", "--look-at", "1.6,0,0", "--vfov", "2"})
                     .err,
@@ -99,6 +101,9 @@ TEST_F(ViewCommand, OverexposedPicturesNameTheExposure) {
     const ProgramResult exr = runDuolux(folder_.path(), {"render", "m.obj", "--quiet", "--device", "cpu",
                                                          "--size", "16x16", "--spp", "4", "-o", "out.exr"});
     EXPECT_EQ(exr.err, "") << "nothing is clipped there";
+    EXPECT_THAT(render(std::string(kFloor) + "usemtl lamp\n" + kUp, {"--no-lamp"}).err,
+                Not(HasSubstr("clipped")))
+        << "only the lamp itself is bright";
 }
 
 TEST_F(ViewCommand, AnEmitterThatIsNotVisibleIsBlackByDesign) {
