@@ -85,7 +85,9 @@ class Framer {
             constexpr float kDarkWorth = 0.05f, kBlockWorth = 0.2f;
             const float part = lamps.all() ? kDarkWorth : (outside.block ? kBlockWorth : 1.0f);
             const float worth = part * outside.worth;
-            if (inside && inside->worth > worth) return camera(inside->eye, inside->target, inside->vfov);
+            // There, all surfaces face others, which is no merit.
+            if (inside && ViewSamples::kFacesNothing * inside->worth > worth)
+                return camera(inside->eye, inside->target, inside->vfov);
         }
         Frustum exact = outside.frustum;
         placeEye(exact, corners_);

@@ -14,16 +14,6 @@ SurfacePoint otherSide(const SurfacePoint& point) {
     return {point.position, -point.normal, point.triangle, !point.front};
 }
 
-/// The part of the random directions in which one side of the surface faces others.
-float facedPart(const Surface& surface, const SurfacePoint& point, SmallRandom& random) {
-    int hits = 0;
-    for (int i = 0; i < kPaths; ++i) {
-        const glm::vec3 origin = point.position + kOffset * point.normal;
-        hits += surface.firstHit(origin, scattered(point.normal, random), point.triangle) ? 1 : 0;
-    }
-    return static_cast<float>(hits) / kPaths;
-}
-
 /// The number of random paths from one side of the surface that leave the scene.
 int escapes(const Surface& surface, const SurfacePoint& point, SmallRandom& random) {
     constexpr int kSegments = 32;
@@ -45,6 +35,15 @@ int escapes(const Surface& surface, const SurfacePoint& point, SmallRandom& rand
 }
 
 }  // namespace
+
+float facedPart(const Surface& surface, const SurfacePoint& point, SmallRandom& random) {
+    int hits = 0;
+    for (int i = 0; i < kPaths; ++i) {
+        const glm::vec3 origin = point.position + kOffset * point.normal;
+        hits += surface.firstHit(origin, scattered(point.normal, random), point.triangle) ? 1 : 0;
+    }
+    return static_cast<float>(hits) / kPaths;
+}
 
 bool isInsideOut(const Surface& surface, const SurfacePoint& front, std::uint32_t seed) {
     constexpr float kMore = 0.3f;

@@ -7,6 +7,9 @@
 
 namespace duolux {
 
+/// The part of random directions in which one side of the surface faces others.
+float facedPart(const Surface& surface, const SurfacePoint& point, SmallRandom& random);
+
 /// Whether a surface belongs to an open hollow whose inside is made of back sides, such as a box without one
 /// of its walls whose normals point outwards. `front`: a point on the front side.
 bool isInsideOut(const Surface& surface, const SurfacePoint& front, std::uint32_t seed);

@@ -69,12 +69,15 @@ ViewSamples::ViewSamples(const Surface& surface, const Illumination& illuminatio
     samples_.resize(points.size());
     std::vector<std::array<float, 2>> whites(points.size());
     std::vector<char> insideOut(points.size());
+    std::vector<std::array<float, 2>> faced(points.size());
     parallelFor(points.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             insideOut[i] = isInsideOut(surface, points[i], static_cast<std::uint32_t>(i + 1)) ? 1 : 0;
             for (std::size_t side = 0; side < 2; ++side) {
                 SurfacePoint point = points[i];
+                SmallRandom random(i + 1);
                 if (side == 1) point = {point.position, -point.normal, point.triangle, false};
+                faced[i][side] = facedPart(surface, point, random);
                 const bool reflects = scatters(surface.materialOf(point.triangle), point.front);
                 const auto seed = static_cast<std::uint32_t>(2 * i + side + 1);
                 const float white = reflects ? illumination.onWhite(point, seed, kPaths) : 0.0f;
@@ -89,7 +92,8 @@ ViewSamples::ViewSamples(const Surface& surface, const Illumination& illuminatio
         for (std::size_t side = 0; side < 2; ++side) {
             SurfacePoint point = points[i];
             point.front = side == 0;
-            samples_[i].worth[side] = worthOf(point, insideOut[i] != 0, whites[i][side]);
+            samples_[i].worth[side] = glm::mix(kFacesNothing, 1.0f, faced[i][side]) *
+                                      worthOf(point, insideOut[i] != 0, whites[i][side]);
         }
     }
 }

@@ -21,11 +21,15 @@ struct Frustum {
 };
 
 /// Points spread evenly over the surface that a camera should show, with the worth of each of their two sides
-/// in an image: front sides are worth more than back sides (in hollows that are inside out: less), and, if
-/// emitters light the scene, lit sides more than unlit ones.
+/// in an image: front sides are worth more than back sides (in hollows that are inside out: less), sides that
+/// face other surfaces more than those that face none and, if emitters light the scene, lit sides more than
+/// unlit ones.
 class ViewSamples {
   public:
     ViewSamples(const Surface& surface, const Illumination& illumination);
+
+    /// The worth of surfaces that face no others, relative to the inside of a hollow: there is more to see.
+    static constexpr float kFacesNothing = 0.5f;
 
     /// The worth of the samples that a camera sees, relative to all samples: those within the frustum that
     /// nothing hides, with less weight at grazing angles. `seen`, if not null, receives them.

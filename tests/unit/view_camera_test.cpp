@@ -126,6 +126,21 @@ TEST(ViewCamera, LooksIntoOpenBoxes) {
         EXPECT_LT(viewOf(framed(openBox({0, 1, 0}, inward))).y, -0.5f) << "from above";
 }
 
+TEST(ViewCamera, LooksIntoOpenBoxesWithThickWalls) {
+    SceneBuilder builder;
+    const std::uint32_t material = builder.add(Material{});
+    const auto wall = [&](glm::vec3 lower, glm::vec3 upper) {
+        builder.box(lower, upper, Facing::kOutward, material);
+    };
+    wall({-1.2f, -1.2f, -1.2f}, {1.2f, -1, 1.2f});
+    wall({-1.2f, 1, -1.2f}, {1.2f, 1.2f, 1.2f});
+    wall({-1.2f, -1, -1.2f}, {-1, 1, 1.2f});
+    wall({1, -1, -1.2f}, {1.2f, 1, 1.2f});
+    wall({-1, -1, 1}, {1, 1, 1.2f});
+    wall({-0.6f, -1, -0.5f}, {-0.1f, 0.3f, 0});
+    EXPECT_GT(viewOf(framed(builder.scene)).z, 0.95f) << "it is open towards -z";
+}
+
 TEST(ViewCamera, ModelsWithoutABottomAreSolid) {
     const Camera open = framed(openBox({0, -1, 0}, false));
     const Camera closed = framed(boxScene(glm::vec3(-1), glm::vec3(1)));
