@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "host/scene/clip_ears.h"
 
@@ -57,6 +58,26 @@ void fan(std::uint32_t count, std::vector<Triangle>& triangles) {
         triangles.push_back({0, i, i + 1});
 }
 
+/// Tiles a convex polygon of many corners: cuts off every second corner, then every second one of those left,
+/// and so on. A fan's triangles would all be about as long as the polygon, and a ray close to its plane would
+/// meet the boxes of most of them.
+void cutEverySecondCorner(std::uint32_t count, std::vector<Triangle>& triangles) {
+    std::vector<std::uint32_t> ring(count);
+    std::iota(ring.begin(), ring.end(), 0u);
+    std::vector<std::uint32_t> left;
+    while (ring.size() > 3) {
+        left.clear();
+        for (std::size_t i = 0; i < ring.size(); i += 2) {
+            left.push_back(ring[i]);
+            if (i + 1 == ring.size()) break;
+            const std::uint32_t after = i + 2 < ring.size() ? ring[i + 2] : ring[0];
+            triangles.push_back({ring[i], ring[i + 1], after});
+        }
+        ring.swap(left);
+    }
+    if (ring.size() == 3) triangles.push_back({ring[0], ring[1], ring[2]});
+}
+
 void cutQuadrilateral(std::span<const glm::vec3> corners, const glm::dvec3& area,
                       std::vector<Triangle>& triangles) {
     // The smaller of the signed areas of the two triangles at a diagonal; positive on the front.
@@ -89,7 +110,9 @@ void triangulate(std::span<const glm::vec3> corners, std::vector<Triangle>& tria
     const glm::dvec3 area = areaVector(corners);
     if (count == 4) return cutQuadrilateral(corners, area, triangles);
     const std::vector<glm::dvec2> points = project(corners, area);
-    if (isConvex(points)) return fan(count, triangles);
+    constexpr std::uint32_t kMany = 32;
+    if (isConvex(points))
+        return count < kMany ? fan(count, triangles) : cutEverySecondCorner(count, triangles);
     clipEars(points, triangles);
 }
 

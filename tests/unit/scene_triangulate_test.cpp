@@ -55,6 +55,27 @@ TEST(Triangulate, TriangleAndConvexPolygons) {
     expectTiling(circle);
 }
 
+/// The triangles of a fan are as long as the polygon: their sides add up to about 2.5 n radii. Cutting off
+/// every second corner adds less than the circumference in each of log2 n rounds.
+TEST(Triangulate, ConvexPolygonsOfManyCornersHaveFewLongTriangles) {
+    for (const std::size_t count : {32u, 33u, 47u, 64u, 1000u, 4097u}) {
+        Polygon circle;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double angle = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(count);
+            circle.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        }
+        expectTiling(circle);
+        std::vector<Triangle> triangles;
+        triangulate(circle, triangles);
+        double sides = 0.0;
+        for (const Triangle& t : triangles) {
+            for (std::size_t k = 0; k < 3; ++k)
+                sides += static_cast<double>(glm::distance(circle[t[k]], circle[t[(k + 1) % 3]]));
+        }
+        EXPECT_LT(sides, 2.0 * 6.2832 * (std::log2(static_cast<double>(count)) + 1.0)) << count;
+    }
+}
+
 TEST(Triangulate, ConcaveQuadrilateralFromEachCorner) {
     const Polygon dart{{0, 0, 0}, {2, 0, 0}, {0.5f, 0.5f, 0}, {0, 2, 0}};  // the inner corner is (0.5, 0.5)
     for (std::size_t turn = 0; turn < 4; ++turn) {
