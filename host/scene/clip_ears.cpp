@@ -219,8 +219,8 @@ class EarClipper {
         for (std::uint32_t left = count_; left > 3; --left) {
             const std::uint32_t ear = chooseCorner(from);
             triangles.push_back({corners_[ear].previous, ear, corners_[ear].next});
-            // Continuing behind the ear prevents all triangles from sharing one corner.
-            from = corners_[ear].next;
+            // Leaving out the next corner prevents all triangles from sharing the previous one.
+            from = corners_[corners_[ear].next].next;
             remove(ear);
         }
         // The last three corners, in the order of the polygon.
