@@ -10,6 +10,9 @@ namespace duolux {
 namespace {
 
 constexpr float kNearest = 1e-6f;  // smallest distance of a hit, relative to the scene's radius
+// Rays usually visit some hundred nodes. Among long thin triangles whose boxes overlap they would visit
+// nearly all of them, and give up: the automatic choices need no exact answer there.
+constexpr std::size_t kMostNodes = 4096;
 
 std::vector<PrimitiveRef> boxesOf(const std::vector<Surface::Triangle>& triangles) {
     std::vector<PrimitiveRef> boxes(triangles.size());
@@ -78,7 +81,8 @@ bool Surface::meets(std::uint32_t triangle, Ray& ray) const {
 /// Depth-first traversal without a stack: a subtree over n triangles has 2n - 1 nodes.
 bool Surface::traverse(Ray& ray, bool any) const {
     bool found = false;
-    for (std::size_t at = 0; at < tree_.nodes.size();) {
+    std::size_t visited = 0;
+    for (std::size_t at = 0; at < tree_.nodes.size() && visited < kMostNodes; ++visited) {
         const BinaryBvh::Node& node = tree_.nodes[at];
         if (!ray.reaches(node.bounds)) {
             at += 2 * std::size_t{node.count} - 1;
