@@ -52,6 +52,8 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version",
                          fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
     app.footer(
+        "A model to a picture:  duolux render model.obj -o model.png\n"
+        "All options:           duolux COMMAND --help\n\n"
         "BVHs of larger scenes are cached in $XDG_CACHE_HOME/duolux (default: ~/.cache/duolux), which never "
         "exceeds 1 GiB; DUOLUX_NO_CACHE=1 in the environment disables the cache.");
     app.require_subcommand(1);
@@ -59,7 +61,6 @@ int run(int argc, char** argv) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.get_formatter()->column_width(36);
     app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-    app.get_formatter()->label("Subcommands", "Commands");
     duolux::addRenderCommand(app);
     duolux::addBenchCommand(app);
     duolux::addCompareCommand(app);
@@ -68,6 +69,8 @@ int run(int argc, char** argv) {
     duolux::addMakeSceneCommand(app);
     duolux::addMergeCommand(app);
     duolux::addSheetCommand(app);
+    for (CLI::App* command : app.get_subcommands({}))
+        command->group("Commands");
     try {
         checkCommand(app, argc, argv);
         std::vector<std::string> arguments = duolux::argumentsOf(argc, argv);

@@ -37,9 +37,9 @@ float reach(const Surface& surface, const SurfacePoint& point) {
 
 /// What is known of the emitters of one material.
 struct Emitters {
-    // Of all, of those whose back sides could light much more, and of those whose back sides could light as
-    // much.
-    double area = 0.0, away = 0.0, evenly = 0.0;
+    double area = 0.0;    // of all
+    double away = 0.0;    // of those whose back sides could light much more than their front sides
+    double evenly = 0.0;  // of those whose back sides could light about as much
     std::vector<std::uint32_t> triangles;
     int fronts = 0, backs = 0;  // rays of the camera that hit them
 };

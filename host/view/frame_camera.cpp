@@ -81,11 +81,12 @@ class Framer {
             const EnclosedEmitters lamps(surface_);
             const std::optional<InsideView> inside = bestInsideView(surface_, samples_, lamps, axes_, aspect_,
                                                                     choice_.vfov, target_, outside.unseen);
-            // From outside, a room looks like a block, and if all lamps are inside, like a dark one.
+            // The view from outside is worth little of a room, whose walls are all that it shows, and less
+            // if all emitters are inside, because it is then dark.
             constexpr float kDarkWorth = 0.05f, kBlockWorth = 0.2f;
             const float part = lamps.all() ? kDarkWorth : (outside.block ? kBlockWorth : 1.0f);
             const float worth = part * outside.worth;
-            // There, all surfaces face others, which is no merit.
+            // Inside a room, all surfaces face others, which must not count in its favour.
             if (inside && ViewSamples::kFacesNothing * inside->worth > worth)
                 return camera(inside->eye, inside->target, inside->vfov);
         }
