@@ -16,9 +16,9 @@
 #include "host/app/options.h"
 #include "host/app/outputs.h"
 #include "host/base/error.h"
+#include "host/base/nearest_name.h"
 #include "host/base/version.h"
 #include "host/compare/heat_map.h"
-#include "host/scene/nearest_name.h"
 
 namespace duolux {
 

@@ -18,8 +18,8 @@
 #include "host/app/signals.h"
 #include "host/base/error.h"
 #include "host/base/memory.h"
+#include "host/base/nearest_name.h"
 #include "host/base/version.h"
-#include "host/scene/nearest_name.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "host/app/commands.h"
 #include "host/base/error.h"
-#include "host/scene/two_spheres.h"
+#include "host/generators/two_spheres.h"
 
 namespace duolux {
 

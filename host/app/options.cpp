@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/nearest_name.h"
 #include "host/base/printable.h"
-#include "host/scene/nearest_name.h"
 
 namespace duolux {
 

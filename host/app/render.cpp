@@ -23,6 +23,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/progress.h"
+#include "host/loaders/scene_file.h"
 #include "host/view/load.h"
 
 namespace duolux {

@@ -10,7 +10,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/scene/two_spheres.h"
+#include "host/generators/two_spheres.h"
 
 // The files, as bytes in the program. cmake/EmbedFiles.cmake generates it.
 #include "duolux_bench_assets.h"

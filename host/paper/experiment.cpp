@@ -9,8 +9,8 @@
 #include "host/base/file.h"
 #include "host/compare/heat_map.h"
 #include "host/film/sheet.h"
+#include "host/generators/two_spheres.h"
 #include "host/paper/program.h"
-#include "host/scene/two_spheres.h"
 
 namespace duolux {
 

@@ -2,12 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
-#include "host/scene/material_files.h"
 #include "host/scene/scene.h"
-#include "host/scene/tally.h"
 
 namespace duolux {
 
@@ -36,11 +35,5 @@ inline constexpr double kFarthestPlace = 1e18;
 
 /// The largest emitted radiance. (The nearest float is smaller.)
 inline constexpr double kLargestRadiance = 1e12;
-
-/// Reads Wavefront OBJ. Polygons are triangulated. Normals come from `vn` or, if a face has none, from its
-/// smoothing group. Materials come from the MTL files that the mesh names; a missing file gives a warning.
-/// Throws InputError.
-Mesh loadObj(const std::filesystem::path& path, MaterialFiles& files);
-Mesh loadObj(const std::filesystem::path& path, Reading reading = Reading::kLenient);
 
 }  // namespace duolux

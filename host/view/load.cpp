@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/base/printable.h"
-#include "host/scene/compose.h"
+#include "host/loaders/scene_file.h"
 #include "host/scene/energy.h"
 #include "host/scene/hash.h"
-#include "host/scene/json_scene.h"
 #include "host/scene/mesh.h"
 #include "host/view/default_light.h"
 #include "host/view/emitter_sides.h"
@@ -28,32 +25,6 @@ std::string whyBlack(const Scene& scene) {
                        anySurfaceScatters(scene)
                            ? "nothing emits light"
                            : "all surfaces are black: they neither reflect nor emit light");
-}
-
-SceneFile readObjScene(const std::filesystem::path& path, Reading reading) {
-    Scene scene;
-    scene.source = path;
-    scene.reflectance = *presetReflectance("global");
-    Mesh mesh = loadObj(path, reading);
-    setOrigin(scene, mesh.origin);
-    appendMesh(scene, std::move(mesh));
-    if (scene.geometry.triangles.empty()) {
-        throw InputError(path.string(), "", "every triangle has zero area", "expected triangles with area");
-    }
-    const std::size_t triangles = scene.geometry.triangles.size();
-    return {std::move(scene), {}, triangles, false, false};
-}
-
-std::string extensionOf(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
-SceneFile readScene(const std::filesystem::path& path, Reading reading) {
-    requireScenePath(path);
-    return extensionOf(path) == ".obj" ? readObjScene(path, reading) : readJsonScene(path, reading);
 }
 
 void warnOfEmitters(Scene& scene, const Surface& surface) {
@@ -163,7 +134,7 @@ void chooseBounces(Scene& scene, const SceneFile& read, const SceneChoices& choi
 }
 
 Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
-    SceneFile read = readScene(path, choices.reading);
+    SceneFile read = readSceneFile(path, choices.reading);
     Scene scene = std::move(read.scene);
     if (choices.size) {
         scene.render.width = choices.size->x;
@@ -180,12 +151,6 @@ Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
 }
 
 }  // namespace
-
-void requireScenePath(const std::filesystem::path& path) {
-    const std::string extension = extensionOf(path);
-    if (extension != ".obj" && extension != ".json")
-        throw InputError(path.string(), "", "has no extension of a scene file", "expected .obj or .json");
-}
 
 Scene loadScene(const std::filesystem::path& path, const SceneChoices& choices) {
     return withMemoryToRead(path, [&] { return load(path, choices); });

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "host/loaders/tally.h"
 #include "host/scene/camera_choice.h"
 #include "host/scene/scene.h"
-#include "host/scene/tally.h"
 
 namespace duolux {
 
@@ -27,9 +27,6 @@ struct SceneChoices {
     std::optional<std::uint32_t> bounces = std::nullopt;
     Reading reading = Reading::kLenient;
 };
-
-/// Throws InputError unless the extension is that of a scene file.
-void requireScenePath(const std::filesystem::path& path);
 
 /// Loads a scene by its extension: .obj (with its MTL; reflectance `global`) or .json (the scene format).
 /// Values that neither the file nor the caller specifies are chosen automatically: missing parts of the

@@ -11,7 +11,7 @@ cp "$source"/assets/cornell/cornell.{obj,mtl} .
 ln -s "$source/assets" assets
 
 # The JSON block: indented by four, from the line of the opening brace to that of the closing one.
-sed -n '/^    {$/,/^    }$/s/^    //p' "$source/host/scene/README.md" >scene.json
+sed -n '/^    {$/,/^    }$/s/^    //p' "$source/host/loaders/README.md" >scene.json
 grep -q '"duolux": 1' scene.json
 "$duolux" info scene.json
 "$duolux" render scene.json --size 16x16 --spp 1 --quiet -o scene.png

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "host/base/temporary_folder.h"
-#include "host/scene/two_spheres.h"
+#include "host/generators/two_spheres.h"
 #include "host/view/load.h"
 #include "tests/statistical/films.h"
 #include "tests/statistical/renders.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host/base/temporary_folder.h"
+#include "host/generators/two_spheres.h"
 #include "host/render/render.h"
-#include "host/scene/two_spheres.h"
 #include "host/view/load.h"
 #include "tests/statistical/films.h"
 #include "tests/statistical/renders.h"

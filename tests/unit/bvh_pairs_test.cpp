@@ -6,7 +6,7 @@
 #include <set>
 
 #include "host/bvh/pairs.h"
-#include "host/scene/icosphere.h"
+#include "host/generators/icosphere.h"
 
 namespace duolux {
 namespace {

@@ -10,7 +10,7 @@
 #include "host/bvh/binary_bvh.h"
 #include "host/bvh/collapse.h"
 #include "host/bvh/pairs.h"
-#include "host/scene/two_spheres.h"
+#include "host/generators/two_spheres.h"
 #include "host/view/load.h"
 #include "shaders/shared/bvh_layout.h"
 

@@ -13,7 +13,7 @@
 #include "host/base/temporary_folder.h"
 #include "host/bvh/tree_cache.h"
 #include "host/bvh/tree_file.h"
-#include "host/scene/icosphere.h"
+#include "host/generators/icosphere.h"
 
 namespace duolux {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "host/base/temporary_folder.h"
+#include "host/loaders/tally.h"
 #include "host/scene/scene.h"
-#include "host/scene/tally.h"
 
 namespace duolux::test {
 

@@ -1,0 +1,91 @@
+#include "host/loaders/json_surface.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "host/scene/mesh.h"
+
+namespace duolux {
+
+namespace {
+
+constexpr double kLargestFactor = 1e6;
+
+LightMatrix readMatrix(const JsonNode& node) {
+    const char* const shape = "expected [[m00, m01], [m10, m11]]";
+    const std::string entry = fmt::format("expected a number or [r, g, b], from 0 to {:g}", kLargestFactor);
+    const std::vector<JsonNode> rows = node.elements(shape, 2);
+    const std::vector<JsonNode> invisible = rows[0].elements(shape, 2);
+    const std::vector<JsonNode> visible = rows[1].elements(shape, 2);
+    return {invisible[0].colour(0.0, kLargestFactor, entry), invisible[1].colour(0.0, kLargestFactor, entry),
+            visible[0].colour(0.0, kLargestFactor, entry), visible[1].colour(0.0, kLargestFactor, entry)};
+}
+
+Reflectance readPreset(const JsonNode& node) {
+    std::vector<std::string> names;
+    for (const Preset& preset : presets())
+        names.emplace_back(preset.name);
+    const Preset& preset = presets()[node.choice(names)];
+    return blendReflectance(preset.t, preset.o);
+}
+
+Reflectance readBlend(const JsonNode& node) {
+    const std::string remedy = "expected [t, o], two numbers from 0 to 1";
+    const std::vector<JsonNode> point = node.elements(remedy, 2);
+    return blendReflectance(static_cast<float>(point[0].number(0.0, 1.0, remedy)),
+                            static_cast<float>(point[1].number(0.0, 1.0, remedy)));
+}
+
+Sides readSides(const JsonNode& node) {
+    static const std::array<std::string, 2> kNames{"front", "both"};
+    return node.choice(kNames) == 0 ? Sides::kFront : Sides::kBoth;
+}
+
+}  // namespace
+
+Reflectance readReflectance(const JsonNode& node) {
+    const char* const kinds =
+        R"(expected {"preset": name}, {"blend": [t, o]} or {"opaque": M, "transparent": M})";
+    node.expectKeys({"preset", "blend", "opaque", "transparent"});
+    const std::optional<JsonNode> preset = node.find("preset");
+    const std::optional<JsonNode> blend = node.find("blend");
+    const bool matrices = node.find("opaque") || node.find("transparent");
+    const int given = (preset ? 1 : 0) + (blend ? 1 : 0) + (matrices ? 1 : 0);
+    if (given == 0) node.fail("is empty", kinds);
+    if (given > 1) node.fail("mixes several kinds", kinds);
+    if (preset) return readPreset(*preset);
+    if (blend) return readBlend(*blend);
+    Reflectance reflectance;
+    reflectance.opaque = readMatrix(node.require("opaque", kinds));
+    reflectance.transparent = readMatrix(node.require("transparent", kinds));
+    return reflectance;
+}
+
+void readEmission(const JsonNode& node, Emission& emission) {
+    const std::string remedy =
+        fmt::format("expected a radiance: a number or [r, g, b], from 0 to {:g}", kLargestRadiance);
+    node.expectKeys({"invisible", "visible", "sides"});
+    if (const auto invisible = node.find("invisible")) {
+        emission.invisible = invisible->colour(0.0, kLargestRadiance, remedy);
+    }
+    if (const auto visible = node.find("visible"))
+        emission.visible = visible->colour(0.0, kLargestRadiance, remedy);
+    if (const auto sides = node.find("sides")) emission.sides = readSides(*sides);
+}
+
+void readMaterial(const JsonNode& node, Material& material) {
+    node.expectKeys({"diffuse", "emission", "reflectance", "sides"});
+    if (const auto diffuse = node.find("diffuse")) {
+        material.diffuse =
+            diffuse->colour(0.0, 1.0, "expected an albedo: a number or [r, g, b], from 0 to 1");
+    }
+    if (const auto emission = node.find("emission")) readEmission(*emission, material.emission);
+    if (const auto reflectance = node.find("reflectance"))
+        material.reflectance = readReflectance(*reflectance);
+    if (const auto sides = node.find("sides")) material.sides = readSides(*sides);
+}
+
+}  // namespace duolux

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "host/loaders/json_node.h"
+#include "host/scene/scene.h"
+
+namespace duolux {
+
+/// {"preset": name}, {"blend": [t, o]} or {"opaque": M, "transparent": M}.
+Reflectance readReflectance(const JsonNode& node);
+
+/// {"invisible": c, "visible": c, "sides": s}; absent keys leave `emission` unchanged.
+void readEmission(const JsonNode& node, Emission& emission);
+
+/// Each key of the object overrides a property of the material.
+void readMaterial(const JsonNode& node, Material& material);
+
+}  // namespace duolux

@@ -1,0 +1,254 @@
+#include "host/loaders/obj_parse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/base/printable.h"
+#include "host/scene/mesh.h"
+#include "host/scene/origin.h"
+
+namespace duolux {
+
+namespace {
+
+struct Stretch {
+    std::size_t begin, end;
+    ObjCounts before, counts;
+};
+
+std::vector<Stretch> splitAtLines(std::string_view text) {
+    constexpr std::size_t kBytes = std::size_t{4} << 20;
+    std::vector<Stretch> stretches;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = text.find('\n', std::min(begin + kBytes, text.size()) - 1) + 1;
+        stretches.push_back({begin, end, {}, {}});
+        begin = end;
+    }
+    return stretches;
+}
+
+ObjCounts countAll(std::string_view text, std::vector<Stretch>& stretches) {
+    parallelFor(stretches.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            stretches[i].counts =
+                countStatements(text.substr(stretches[i].begin, stretches[i].end - stretches[i].begin));
+        }
+    });
+    ObjCounts total;
+    for (Stretch& stretch : stretches) {
+        stretch.before = total;
+        total += stretch.counts;
+    }
+    return total;
+}
+
+/// The offset of the (ordinal + 1)th statement `v`. Only for error messages.
+std::size_t offsetOfVertex(std::string_view text, std::size_t ordinal) {
+    for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
+        const std::string_view line = trimmed(text.substr(begin, text.find('\n', begin) - begin));
+        if (firstWord(line) == "v" && ordinal-- == 0) return begin;
+    }
+    return 0;
+}
+
+/// Converts the positions of a file to floats.
+class Positions {
+  public:
+    Positions(const SourceText& text, ObjFile& file, std::vector<glm::dvec3> values)
+        : text_(text), file_(file), values_(std::move(values)) {}
+
+    /// Invalid vertices are an error if a face uses one or there are no faces; otherwise they are counted.
+    void settleBadVertices() {
+        const bool anyFace = std::any_of(file_.parts.begin(), file_.parts.end(),
+                                         [](const ObjPart& part) { return !part.faceEnds.empty(); });
+        std::vector<bool> used;
+        for (const ObjPart& part : file_.parts) {
+            for (const ObjPart::BadVertex& vertex : part.badVertices) {
+                if (used.empty()) used = usedVertices();
+                if (used[vertex.index] || !anyFace) fail(part, vertex);
+                file_.oddities.add(ObjOddity::kUnusedVertex, part.offset + vertex.offset);
+                values_[vertex.index] = glm::dvec3(0.0);
+            }
+        }
+    }
+
+    /// Converts the positions to floats relative to the file's origin.
+    void round(Reading reading) {
+        const double tolerance = kUnnoticed * typicalEdge();
+        WideBounds all;
+        for (const glm::dvec3& value : values_)
+            all.add(value);
+        const WideBounds bounds = usedBounds(all);
+        const bool mayLose = !all.empty() && largestRoundingError(all.reach()) > tolerance;
+        file_.origin = mayLose ? originFor(bounds, samples(tolerance)) : originFor(bounds);
+        file_.positions.resize(values_.size());
+        bool inRange = true;
+        const auto largest = static_cast<double>(kLargestCoordinate);
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            const glm::dvec3 position = values_[i] - file_.origin;
+            inRange = inRange && glm::all(glm::lessThanEqual(glm::abs(position), glm::dvec3(largest)));
+            file_.positions[i] = glm::vec3(position);
+        }
+        if (!inRange) settleFarVertices(reading);
+        if (mayLose) measureLoss(tolerance);
+    }
+
+  private:
+    [[noreturn]] void fail(const ObjPart& part, const ObjPart::BadVertex& vertex) const {
+        const std::size_t offset = part.offset + vertex.offset;
+        const std::string_view word = firstWord(text_.view().substr(offset));
+        text_.fail({offset,
+                    vertex.tooFew ? fmt::format("{} numbers", *vertex.tooFew)
+                                  : fmt::format("{} is not a finite number", inQuotes(word)),
+                    "expected \"v x y z\""});
+    }
+
+    std::vector<bool> usedVertices() const {
+        std::vector<bool> used(values_.size(), false);
+        for (const ObjPart& part : file_.parts) {
+            for (const std::uint32_t vertex : part.cornerVertices)
+                used[vertex] = true;
+        }
+        return used;
+    }
+
+    /// Bounds of the vertices that faces use, or of some of them if these are already so far apart that no
+    /// origin is needed.
+    WideBounds usedBounds(const WideBounds& all) const {
+        WideBounds bounds;
+        for (const ObjPart& part : file_.parts) {
+            for (const std::uint32_t vertex : part.cornerVertices) {
+                bounds.add(values_[vertex]);
+                if (kFarAway * bounds.extent() >= all.reach()) return bounds;
+            }
+        }
+        return bounds;
+    }
+
+    /// The median length over two edges of each of many faces.
+    double typicalEdge() const {
+        constexpr std::size_t kMost = 4096;
+        std::size_t faces = 0;
+        for (const ObjPart& part : file_.parts)
+            faces += part.faceEnds.size();
+        std::vector<double> lengths;
+        for (const ObjPart& part : file_.parts) {
+            for (std::size_t face = 0; face < part.faceEnds.size(); face += faces / kMost + 1) {
+                const std::uint32_t* corner = &part.cornerVertices[part.faceEnds[face] - 3];
+                for (int i = 0; i < 2; ++i)
+                    lengths.push_back(glm::distance(values_[corner[i]], values_[corner[i + 1]]));
+            }
+        }
+        return medianOf(std::move(lengths));
+    }
+
+    std::vector<OriginSample> samples(double tolerance) const {
+        constexpr std::size_t kMost = 1u << 16;
+        std::size_t corners = 0;
+        for (const ObjPart& part : file_.parts)
+            corners += part.cornerVertices.size();
+        std::vector<OriginSample> samples;
+        for (const ObjPart& part : file_.parts) {
+            for (std::size_t i = 0; i < part.cornerVertices.size(); i += corners / kMost + 1)
+                samples.push_back({values_[part.cornerVertices[i]], tolerance});
+        }
+        return samples;
+    }
+
+    void measureLoss(double tolerance) {
+        const std::vector<bool> used = usedVertices();
+        RoundingLoss& loss = file_.loss;
+        loss.typicalEdge = tolerance / kUnnoticed;
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            const double error = used[i] ? roundingError(values_[i] - file_.origin) : 0.0;
+            loss.vertices += error > tolerance ? 1 : 0;
+            loss.largest = std::max(loss.largest, error);
+        }
+    }
+
+    void settleFarVertices(Reading reading) {
+        const std::vector<bool> used = usedVertices();
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            const glm::vec3 size = glm::abs(file_.positions[i]);
+            if (glm::all(glm::lessThanEqual(size, glm::vec3(kLargestCoordinate)))) continue;
+            const bool refused = used[i] || reading == Reading::kStrict;
+            const bool isFirst = file_.oddities[ObjOddity::kUnusedVertex].count == 0;
+            const std::size_t offset = refused || isFirst ? offsetOfVertex(text_.view(), i) : 0;
+            if (refused) {
+                text_.fail({offset, "a coordinate is not finite or too large",
+                            fmt::format("expected at most {:g} in magnitude", kLargestCoordinate)});
+            }
+            file_.oddities.add(ObjOddity::kUnusedVertex, offset);
+            file_.positions[i] = glm::vec3(0.0f);
+        }
+    }
+
+    const SourceText& text_;
+    ObjFile& file_;
+    std::vector<glm::dvec3> values_;
+};
+
+/// Throws if all faces are invalid; a file with some valid faces is loaded without the invalid ones.
+void failWithoutFaces(const SourceText& text, const ObjFile& file) {
+    const auto hasFaces = [](const ObjPart& part) { return !part.faceEnds.empty(); };
+    if (std::any_of(file.parts.begin(), file.parts.end(), hasFaces)) return;
+    for (const ObjPart& part : file.parts) {
+        if (!part.badFace) continue;
+        TextProblem problem = *part.badFace;
+        problem.offset += part.offset;
+        text.fail(problem);
+    }
+}
+
+}  // namespace
+
+ObjFile parseObj(const SourceText& text, Reading reading) {
+    std::vector<Stretch> stretches = splitAtLines(text.view());
+    const ObjCounts total = countAll(text.view(), stretches);
+    constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+    if (total.vertices > kMost || total.normals > kMost || total.faces > kMost) {
+        throw InputError(text.file(), "", "is too large", "expected fewer than 2^31 vertices and faces");
+    }
+
+    ObjFile file;
+    std::vector<glm::dvec3> positions(total.vertices);
+    file.normals.resize(total.normals);
+    file.parts.resize(stretches.size());
+    std::vector<std::optional<TextProblem>> problems(stretches.size());
+    parallelFor(stretches.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Stretch& stretch = stretches[i];
+            ObjPart& part = file.parts[i];
+            part.offset = stretch.begin;
+            part.faceEnds.reserve(stretch.counts.faces);
+            part.cornerVertices.reserve(3 * stretch.counts.faces);
+            const ObjPartTarget target{positions, file.normals, stretch.before, total};
+            problems[i] = readObjPart(text.view().substr(stretch.begin, stretch.end - stretch.begin), target,
+                                      reading, part);
+        }
+    });
+    for (std::size_t i = 0; i < problems.size(); ++i) {
+        if (problems[i]) {
+            problems[i]->offset += stretches[i].begin;
+            text.fail(*problems[i]);
+        }
+        file.oddities.append(file.parts[i].notes.oddities, file.parts[i].offset);
+    }
+    failWithoutFaces(text, file);
+    Positions rounding(text, file, std::move(positions));
+    rounding.settleBadVertices();
+    rounding.round(reading);
+    return file;
+}
+
+}  // namespace duolux

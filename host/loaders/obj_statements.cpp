@@ -1,0 +1,115 @@
+#include "host/loaders/obj_statements.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+
+#include "host/base/printable.h"
+
+namespace duolux {
+
+namespace {
+
+struct Description {
+    ObjOddity kind;
+    const char* what;
+    const char* consequence;
+};
+
+constexpr std::array kDescriptions{
+    Description{ObjOddity::kShortFace, "a face of fewer than 3 corners", "left out"},
+    Description{ObjOddity::kBadFace, "a face with a vertex index that is 0, out of range or not a number",
+                "left out"},
+    Description{ObjOddity::kUnusedVertex, "a vertex that is not three finite numbers, or too large",
+                "no face uses it"},
+    Description{ObjOddity::kExtraNumbers, "more numbers than the statement has", "the last ones are ignored"},
+    Description{ObjOddity::kExtraWords, "extra values that are not finite numbers", "ignored"},
+    Description{ObjOddity::kNormal, "a normal that is not three finite numbers",
+                "triangles that name it are flat"},
+    Description{ObjOddity::kNormalIndex, "a normal index that is 0 or out of range",
+                "such triangles are flat"},
+    Description{ObjOddity::kTexture, "a texture coordinate that is not one to three finite numbers",
+                "it is not used"},
+    Description{ObjOddity::kTextureIndex, "a texture coordinate index that is 0 or out of range",
+                "it is not used"},
+    Description{ObjOddity::kTrailingSlash, "a corner that ends in \"/\"", "read without it"},
+    Description{ObjOddity::kCornerRest, "a corner with more than v/vt/vn, as in 1.0 or 1/1/1/1",
+                "the rest is ignored"},
+    Description{ObjOddity::kSmoothing, "a smoothing group that is neither a number nor \"off\"",
+                "\"on\" is read as group 1, anything else as off"},
+    Description{ObjOddity::kMaterialName, "usemtl without a name", "its faces are grey 0.8"},
+    Description{ObjOddity::kLibraryName, "mtllib without a name", "ignored"},
+    Description{ObjOddity::kVertexColour, "a vertex with a colour", "vertex colours are not used"},
+    Description{ObjOddity::kVertexWeight, "a vertex with a weight w other than 1", "w is not used"},
+};
+
+}  // namespace
+
+ObjCounts& ObjCounts::operator+=(const ObjCounts& other) {
+    vertices += other.vertices;
+    textureCoordinates += other.textureCoordinates;
+    normals += other.normals;
+    faces += other.faces;
+    return *this;
+}
+
+ObjCounts countStatements(std::string_view text) {
+    const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
+    const auto endsWord = [&](char c) { return isBlank(c) || c == '\n' || c == '\r'; };
+    ObjCounts counts;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (at != end) {
+        while (isBlank(*at))
+            ++at;
+        if (*at == 'f') {
+            if (endsWord(at[1])) ++counts.faces;
+        } else if (*at == 'v') {
+            if (endsWord(at[1])) {
+                ++counts.vertices;
+            } else if (endsWord(at[2])) {
+                if (at[1] == 't') ++counts.textureCoordinates;
+                if (at[1] == 'n') ++counts.normals;
+            }
+        }
+        at = static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(end - at))) + 1;
+    }
+    return counts;
+}
+
+ObjKeyword objKeywordOf(std::string_view word) {
+    if (word.empty() || word.front() == '#') return ObjKeyword::kNone;
+    if (word == "v") return ObjKeyword::kVertex;
+    if (word == "f") return ObjKeyword::kFace;
+    if (word == "vn") return ObjKeyword::kNormal;
+    if (word == "vt") return ObjKeyword::kTexture;
+    if (word == "s") return ObjKeyword::kSmoothing;
+    if (word == "usemtl") return ObjKeyword::kMaterial;
+    if (word == "mtllib") return ObjKeyword::kLibrary;
+    static constexpr std::array<std::string_view, 12> kNeutral{
+        "g", "o", "l", "p", "vp", "lod", "bevel", "c_interp", "d_interp", "usemap", "maplib", "mg"};
+    for (const std::string_view neutral : kNeutral) {
+        if (word == neutral) return ObjKeyword::kNeutral;
+    }
+    return ObjKeyword::kUnknown;
+}
+
+void warnOfOddities(const SourceText& text, const Tally<ObjOddity>& oddities,
+                    std::vector<std::string>& warnings) {
+    if (const auto& unknown = oddities[ObjOddity::kUnknownStatement]; unknown.count > 0) {
+        warnings.push_back(fmt::format("{}: line {}: {} is not supported; {} such line{} ignored",
+                                       text.file(), text.lineOf(unknown.first),
+                                       inQuotes(firstWord(text.view().substr(unknown.first))), unknown.count,
+                                       unknown.count == 1 ? " is" : "s are"));
+    }
+    for (const auto& [kind, what, consequence] : kDescriptions) {
+        const auto& [count, first] = oddities[kind];
+        if (count == 0) continue;
+        const std::string more = count == 1 ? "" : fmt::format(" (and {} more)", count - 1);
+        warnings.push_back(
+            fmt::format("{}: line {}: {}{}: {}", text.file(), text.lineOf(first), what, more, consequence));
+    }
+}
+
+}  // namespace duolux

@@ -1,0 +1,1 @@
+duolux_test(generators_test SOURCES generators_two_spheres_test.cpp scene_files.cpp LINK duolux_generators duolux_view)
