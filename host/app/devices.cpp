@@ -8,7 +8,7 @@
 #include "host/app/machine_options.h"
 #include "host/base/error.h"
 #include "host/gpu/json.h"
-#include "host/vk/device.h"
+#include "host/vk/device_info.h"
 #include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
@@ -20,8 +20,7 @@ void printDevice(const DeviceInfo& device, bool chosen) {
     fmt::print("{} {}: {}\n", chosen ? "*" : " ", device.index, device.name);
     fmt::print("     kind                   {}\n", nameOf(device.kind));
     fmt::print("     driver                 {}\n", device.driver);
-    fmt::print("     Vulkan                 {}.{}.{}\n", VK_API_VERSION_MAJOR(device.apiVersion),
-               VK_API_VERSION_MINOR(device.apiVersion), VK_API_VERSION_PATCH(device.apiVersion));
+    fmt::print("     Vulkan                 {}\n", device.vulkanVersion);
     fmt::print("     subgroup size          {}\n", device.subgroupSize);
     fmt::print("     memory                 {:.0f} MiB\n",
                static_cast<double>(device.memoryBytes) / kMebibyte);
@@ -38,9 +37,7 @@ nlohmann::ordered_json devicesJson(const std::vector<DeviceInfo>& devices, const
     for (const DeviceInfo& device : devices) {
         nlohmann::ordered_json entry = {{"index", device.index}, {"chosen", &device == chosen}};
         entry.update(toJson(device));
-        entry["vulkan"] =
-            fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(device.apiVersion),
-                        VK_API_VERSION_MINOR(device.apiVersion), VK_API_VERSION_PATCH(device.apiVersion));
+        entry["vulkan"] = device.vulkanVersion;
         entry["subgroup_size"] = device.subgroupSize;
         entry["memory_bytes"] = device.memoryBytes;
         entry["storage_buffer_bytes"] = device.maxStorageBufferRange;

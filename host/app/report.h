@@ -4,7 +4,7 @@
 
 #include "host/render/render.h"
 #include "host/scene/scene.h"
-#include "host/vk/device.h"
+#include "host/vk/device_info.h"
 
 namespace duolux {
 

@@ -8,7 +8,7 @@
 
 #include "host/bench/benchmark.h"
 #include "host/gpu/tuning.h"
-#include "host/vk/device.h"
+#include "host/vk/device_info.h"
 
 namespace duolux {
 

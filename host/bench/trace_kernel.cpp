@@ -16,7 +16,7 @@ namespace {
 
 Buffer makeResults(const Device& device, std::size_t rays, bool count) {
     const std::size_t size = count ? sizeof(shared::TraceCounts) : rays * sizeof(shared::TraceHit);
-    return Buffer::readback(device, size, "hits", vk::BufferUsageFlagBits::eTransferDst);
+    return Buffer::readback(device, size, "hits");
 }
 
 std::vector<Binding> traceBindings(std::vector<Binding> bindings, const Buffer& rays, const Buffer& results) {
@@ -53,22 +53,15 @@ TraceKernel::TraceKernel(const Device& device, const DeviceScene& scene, std::ui
 }
 
 BenchTimes TraceKernel::run(std::uint32_t passes) {
-    using Stage = vk::PipelineStageFlagBits;
-    using Access = vk::AccessFlagBits;
-    runOnce(*device_, "clearing hits", [&](const vk::raii::CommandBuffer& commands) {
-        commands.fillBuffer(results_.handle(), 0, VK_WHOLE_SIZE, count_ ? 0u : 0xffffffffu);
-    });
+    runOnce(*device_, "clearing hits",
+            [&](const Commands& commands) { commands.fill(results_, count_ ? 0u : 0xffffffffu); });
     const std::uint32_t blocks = (rayCount_ + blockRays_ - 1) / blockRays_;
     const std::uint32_t groups = (blocks * lanes_ + workgroupSize_ - 1) / workgroupSize_;
     const shared::TraceDispatch push{rayCount_, blockRays_};
     const auto start = std::chrono::steady_clock::now();
-    commands_.submit("tracing rays", [&](const vk::raii::CommandBuffer& commands) {
+    commands_.submit("tracing rays", [&](const Commands& commands) {
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
-            if (pass > 0) {
-                const vk::MemoryBarrier barrier(Access::eShaderWrite,
-                                                Access::eShaderRead | Access::eShaderWrite);
-                commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader, {}, barrier, {}, {});
-            }
+            if (pass > 0) commands.barrier(Work::kKernels, Work::kKernels);
             kernel_.dispatch(commands, push, groups);
         }
     });

@@ -200,7 +200,7 @@ std::vector<shared::DeviceMaterial> deviceMaterials(const Scene& scene, const Li
 }  // namespace
 
 std::vector<Binding> DeviceScene::treeBindings() const {
-    const Binding nodesBinding = structure ? Binding{shared::kBindingNodes, nullptr, structure->handle()}
+    const Binding nodesBinding = structure ? Binding{shared::kBindingNodes, nullptr, &*structure}
                                            : Binding{shared::kBindingNodes, &nodes};
     return {nodesBinding, {shared::kBindingTriangles, &triangles}};
 }
@@ -289,9 +289,8 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         .brightestEmission = brightestEmission(scene),
         .buildSeconds = buildSeconds,
         .nodes = Buffer::upload<shared::WideNode>(device, treeUse, trees.nodes, "BVH nodes"),
-        .triangles = Buffer::upload<shared::DevicePair>(
-            device, treeUse, pairs, "triangles",
-            rayQueries ? AccelerationStructure::kInputUse : vk::BufferUsageFlags()),
+        .triangles = Buffer::upload<shared::DevicePair>(device, treeUse, pairs, "triangles",
+                                                        rayQueries ? TreeUse::kInput : TreeUse::kNone),
         .normals = Buffer::upload<shared::DeviceNormals>(device, Use::kTexels, normals, "normals"),
         .materials = Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels,
                                                             deviceMaterials(scene, table), "materials"),

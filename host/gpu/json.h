@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/gpu/tuning.h"
-#include "host/vk/device.h"
+#include "host/vk/device_info.h"
 
 namespace duolux {
 

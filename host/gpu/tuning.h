@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "host/vk/device.h"
+#include "host/vk/device_info.h"
 
 namespace duolux {
 

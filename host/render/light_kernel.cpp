@@ -22,8 +22,7 @@ std::uint32_t chooseBandPixels(const Device& device, Layout layout, const Scene&
     const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
     // The other storage buffers: results and teams' progress and, with Layout::kStorage, nodes and triangles.
     const std::uint32_t others = layout == Layout::kStorage ? 4 : 2;
-    const std::uint32_t bindable =
-        device.physical().getProperties().limits.maxPerStageDescriptorStorageBuffers;
+    const std::uint32_t bindable = device.info().maxStorageBuffers;
     const std::uint64_t bands = std::min(shared::kMaxFilmBands, bindable - std::min(bindable, others));
     std::uint64_t most = device.info().maxStorageBufferRange / kPixelBytes;
     if (limit > 0) most = std::min<std::uint64_t>(most, limit);
@@ -40,9 +39,8 @@ std::uint32_t chooseBandPixels(const Device& device, Layout layout, const Scene&
 std::vector<Buffer> makeFilm(const Device& device, std::uint32_t pixels, std::uint32_t bandPixels) {
     std::vector<Buffer> bands;
     for (std::uint32_t first = 0; first < pixels; first += bandPixels) {
-        bands.push_back(Buffer::device(
-            device, BufferUse::kStorage, std::min(bandPixels, pixels - first) * kPixelBytes,
-            vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst, "film"));
+        bands.push_back(Buffer::device(device, BufferUse::kStorage,
+                                       std::min(bandPixels, pixels - first) * kPixelBytes, "film"));
     }
     return bands;
 }
@@ -89,8 +87,7 @@ LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, c
       params_(uploadParams(device, deviceScene, scene)),
       results_(
           Buffer::readback(device, 2 * sizeof(shared::LaneResult) * std::uint64_t{maxLanes_}, "results")),
-      filmRead_(
-          Buffer::readback(device, readPixels_ * kPixelBytes, "film", vk::BufferUsageFlagBits::eTransferDst)),
+      filmRead_(Buffer::readback(device, readPixels_ * kPixelBytes, "film")),
       film_(makeFilm(device, pixels_, bandPixels_)),
       kernel_(device, "light", chooseVariant(device, deviceScene.tuning.layout, limits.noInt64Atomics),
               lightBindings(sceneBindings(deviceScene, params_), results_, teams_, film_),
@@ -119,7 +116,7 @@ void LightKernel::submit(unsigned place, const PathRange& range, float quantum) 
                                      place * maxLanes_,
                                      teams_.firstTeam(place),
                                      1.0f / quantum};
-    commands_[place].submit("tracing light paths", [&](const vk::raii::CommandBuffer& commands) {
+    commands_[place].submit("tracing light paths", [&](const Commands& commands) {
         teams_.record(commands, kernel_, push, place, range.count, teamPaths);
     });
 }
@@ -139,16 +136,9 @@ void LightKernel::takeFilm(Film& film, bool& partly) {
         const std::uint32_t bandEnd = std::min(bandBegin + bandPixels_, pixels_);
         for (std::uint32_t first = bandBegin; first < bandEnd; first += readPixels_) {
             const std::uint32_t count = std::min(readPixels_, bandEnd - first);
-            runOnce(*device_, "reading the film", [&](const vk::raii::CommandBuffer& commands) {
-                using Stage = vk::PipelineStageFlagBits;
-                using Access = vk::AccessFlagBits;
-                commands.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
-                                         vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferWrite,
-                                                           Access::eTransferRead | Access::eTransferWrite),
-                                         {}, {});
-                commands.copyBuffer(
-                    band.handle(), filmRead_.handle(),
-                    vk::BufferCopy((first - bandBegin) * kPixelBytes, 0, count * kPixelBytes));
+            runOnce(*device_, "reading the film", [&](const Commands& commands) {
+                commands.barrier(Work::kAll, Work::kTransfers);
+                commands.copy(band, (first - bandBegin) * kPixelBytes, filmRead_, 0, count * kPixelBytes);
             });
             filmRead_.invalidate();
             film.addLight(first, {reinterpret_cast<const Film::PixelSum*>(filmRead_.mapped()), count});
@@ -159,14 +149,10 @@ void LightKernel::takeFilm(Film& film, bool& partly) {
 }
 
 void LightKernel::clearFilm() {
-    runOnce(*device_, "clearing the film", [&](const vk::raii::CommandBuffer& commands) {
-        using Stage = vk::PipelineStageFlagBits;
-        using Access = vk::AccessFlagBits;
-        commands.pipelineBarrier(
-            Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
-            vk::MemoryBarrier(Access::eShaderWrite | Access::eTransferRead, Access::eTransferWrite), {}, {});
+    runOnce(*device_, "clearing the film", [&](const Commands& commands) {
+        commands.barrier(Work::kAll, Work::kTransfers);
         for (const Buffer& band : film_)
-            commands.fillBuffer(band.handle(), 0, VK_WHOLE_SIZE, 0);
+            commands.fill(band, 0);
     });
 }
 

@@ -79,7 +79,7 @@ void PathKernel::submit(unsigned place, const WorkRange& range, float quantum) {
     const shared::DispatchParams push{range.firstSlot,         range.slots,   range.firstSample,
                                       range.samples,           teamSlots,     place * maxSlots_,
                                       teams_.firstTeam(place), 1.0f / quantum};
-    commands_[place].submit("tracing paths", [&](const vk::raii::CommandBuffer& commands) {
+    commands_[place].submit("tracing paths", [&](const Commands& commands) {
         teams_.record(commands, kernel_, push, place, range.slots, teamSlots);
     });
 }

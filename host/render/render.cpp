@@ -156,8 +156,6 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
         trace(context);
     } catch (const MachineError& e) {
         failWithFilm(context, e.what());
-    } catch (const vk::SystemError& e) {
-        failWithFilm(context, failureOn(device.info(), "rendering", e).what());
     } catch (const std::bad_alloc&) {
         failWithFilm(context, outOfMemory("rendering", "expected a smaller size, or more memory").what());
     }

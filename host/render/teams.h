@@ -5,6 +5,7 @@
 
 #include "host/gpu/tuning.h"
 #include "host/vk/buffer.h"
+#include "host/vk/commands.h"
 #include "host/vk/device.h"
 #include "host/vk/kernel.h"
 
@@ -35,8 +36,8 @@ class Teams {
 
     /// Records a dispatch with `teamItems` items for each team.
     template <typename Push>
-    void record(const vk::raii::CommandBuffer& commands, const Kernel& kernel, const Push& push,
-                unsigned place, std::uint32_t items, std::uint32_t teamItems) {
+    void record(const Commands& commands, const Kernel& kernel, const Push& push, unsigned place,
+                std::uint32_t items, std::uint32_t teamItems) {
         const std::uint32_t teams = begin(commands, place, items, teamItems);
         kernel.dispatch(commands, push, (teams * lanes_ + workgroupSize_ - 1) / workgroupSize_);
         end(commands, place);
@@ -49,9 +50,9 @@ class Teams {
     struct Dispatch {
         std::uint32_t items = 0, teamItems = 1, teams = 0;
     };
-    std::uint32_t begin(const vk::raii::CommandBuffer& commands, unsigned place, std::uint32_t items,
+    std::uint32_t begin(const Commands& commands, unsigned place, std::uint32_t items,
                         std::uint32_t teamItems);
-    void end(const vk::raii::CommandBuffer& commands, unsigned place) const;
+    void end(const Commands& commands, unsigned place) const;
 
     std::uint32_t lanes_, workgroupSize_, fewestTeams_, maxItems_;
     Buffer progress_, read_;

@@ -6,60 +6,57 @@
 
 #include "host/base/error.h"
 #include "host/vk/commands.h"
+#include "host/vk/handles.h"
 
 namespace duolux {
 
 namespace {
 
-using Use = vk::BufferUsageFlagBits;
+using Level = AccelerationStructure::Handles::Level;
 
 constexpr std::uint64_t kVertexBytes = 16;
 
 vk::PhysicalDeviceAccelerationStructurePropertiesKHR limitsOf(const Device& device) {
-    return device.physical()
+    return device.handles()
+        .physical
         .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
         .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
 }
 
-}  // namespace
-
-AccelerationStructure::Level AccelerationStructure::build(
-    const Device& device, vk::AccelerationStructureTypeKHR type,
-    const vk::AccelerationStructureGeometryKHR& geometry, std::uint32_t primitives) {
+Level build(const Device& device, vk::AccelerationStructureTypeKHR type,
+            const vk::AccelerationStructureGeometryKHR& geometry, std::uint32_t primitives) {
     vk::AccelerationStructureBuildGeometryInfoKHR info(
         type, vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace,
         vk::BuildAccelerationStructureModeKHR::eBuild);
     info.setGeometries(geometry);
     const vk::AccelerationStructureBuildSizesInfoKHR sizes =
-        device.handle().getAccelerationStructureBuildSizesKHR(vk::AccelerationStructureBuildTypeKHR::eDevice,
-                                                              info, primitives);
+        device.handles().device.getAccelerationStructureBuildSizesKHR(
+            vk::AccelerationStructureBuildTypeKHR::eDevice, info, primitives);
     Buffer memory = Buffer::device(device, BufferUse::kUnbound, sizes.accelerationStructureSize,
-                                   Use::eAccelerationStructureStorageKHR | Use::eShaderDeviceAddress,
-                                   "a tree for ray queries");
+                                   "a tree for ray queries", TreeUse::kStorage);
     vk::raii::AccelerationStructureKHR structure(
-        device.handle(), vk::AccelerationStructureCreateInfoKHR({}, memory.handle(), 0,
-                                                                sizes.accelerationStructureSize, type));
+        device.handles().device, vk::AccelerationStructureCreateInfoKHR(
+                                     {}, *memory.handles().buffer, 0, sizes.accelerationStructureSize, type));
     const std::uint64_t alignment = limitsOf(device).minAccelerationStructureScratchOffsetAlignment;
-    const Buffer scratch =
-        Buffer::device(device, BufferUse::kUnbound, sizes.buildScratchSize + alignment,
-                       Use::eStorageBuffer | Use::eShaderDeviceAddress, "building a tree for ray queries");
+    const Buffer scratch = Buffer::device(device, BufferUse::kUnbound, sizes.buildScratchSize + alignment,
+                                          "building a tree for ray queries", TreeUse::kScratch);
     info.dstAccelerationStructure = *structure;
     info.scratchData = (scratch.address() + alignment - 1) / alignment * alignment;
     const vk::AccelerationStructureBuildRangeInfoKHR range(primitives, 0, 0, 0);
-    runOnce(device, "building a tree for ray queries", [&](const vk::raii::CommandBuffer& commands) {
-        commands.buildAccelerationStructuresKHR(info, &range);
+    runOnce(device, "building a tree for ray queries", [&](const Commands& commands) {
+        commands.handle().buildAccelerationStructuresKHR(info, &range);
     });
     return {std::move(memory), std::move(structure)};
 }
 
-std::vector<AccelerationStructure::Level> AccelerationStructure::buildParts(
-    const Device& device, const Buffer& vertices, std::span<const std::uint32_t> indices,
-    std::span<const Part> parts) {
+std::vector<Level> buildParts(const Device& device, const Buffer& vertices,
+                              std::span<const std::uint32_t> indices,
+                              std::span<const AccelerationStructure::Part> parts) {
     const std::uint64_t most = limitsOf(device).maxPrimitiveCount;
     const Buffer corners =
-        Buffer::upload(device, BufferUse::kUnbound, indices, "indices for ray queries", kInputUse);
+        Buffer::upload(device, BufferUse::kUnbound, indices, "indices for ray queries", TreeUse::kInput);
     std::vector<Level> levels;
-    for (const Part& part : parts) {
+    for (const AccelerationStructure::Part& part : parts) {
         if (part.triangles > most) {
             throw MachineError(
                 fmt::format("{} ({}): {} triangles, more than the {} that ray queries can have",
@@ -75,34 +72,42 @@ std::vector<AccelerationStructure::Level> AccelerationStructure::buildParts(
     return levels;
 }
 
-AccelerationStructure::Level AccelerationStructure::buildTop(const Device& device,
-                                                             const std::vector<Level>& levels,
-                                                             std::span<const Part> parts) {
+Level buildTop(const Device& device, const std::vector<Level>& levels,
+               std::span<const AccelerationStructure::Part> parts) {
     const std::array<std::array<float, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     const vk::TransformMatrixKHR identity(rows);
     std::vector<vk::AccelerationStructureInstanceKHR> instances;
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        instances.emplace_back(identity, 0, parts[i].mask, 0, vk::GeometryInstanceFlagsKHR(),
-                               device.handle().getAccelerationStructureAddressKHR(*levels[i].structure));
+        instances.emplace_back(
+            identity, 0, parts[i].mask, 0, vk::GeometryInstanceFlagsKHR(),
+            device.handles().device.getAccelerationStructureAddressKHR(*levels[i].structure));
     }
     const Buffer memory = Buffer::upload<vk::AccelerationStructureInstanceKHR>(
-        device, BufferUse::kUnbound, instances, "instances for ray queries", kInputUse);
+        device, BufferUse::kUnbound, instances, "instances for ray queries", TreeUse::kInput);
     const vk::AccelerationStructureGeometryInstancesDataKHR data(VK_FALSE, memory.address());
     return build(device, vk::AccelerationStructureTypeKHR::eTopLevel, {vk::GeometryTypeKHR::eInstances, data},
                  static_cast<std::uint32_t>(instances.size()));
 }
 
+}  // namespace
+
 AccelerationStructure::AccelerationStructure(const Device& device, const Buffer& vertices,
                                              std::span<const std::uint32_t> indices,
-                                             std::span<const Part> parts) try
-    : parts_(buildParts(device, vertices, indices, parts)), top_(buildTop(device, parts_, parts)) {
+                                             std::span<const AccelerationStructure::Part> parts) try {
+    std::vector<Level> levels = buildParts(device, vertices, indices, parts);
+    Level top = buildTop(device, levels, parts);
+    handles_ = std::make_unique<Handles>(std::move(levels), std::move(top));
 } catch (const vk::SystemError& e) {
     throw failureOn(device.info(), "building a tree for ray queries", e);
 }
 
+AccelerationStructure::~AccelerationStructure() = default;
+AccelerationStructure::AccelerationStructure(AccelerationStructure&& other) noexcept = default;
+AccelerationStructure& AccelerationStructure::operator=(AccelerationStructure&& other) noexcept = default;
+
 std::uint64_t AccelerationStructure::allocated() const {
-    std::uint64_t bytes = top_.memory.allocated();
-    for (const Level& part : parts_)
+    std::uint64_t bytes = handles_->top.memory.allocated();
+    for (const Level& part : handles_->parts)
         bytes += part.memory.allocated();
     return bytes;
 }

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/vk/commands.h"
+#include "host/vk/handles.h"
 
 namespace duolux {
 
@@ -15,16 +16,32 @@ namespace {
 
 constexpr std::uint64_t kTexelBytes = 16;
 
+using Usage = vk::BufferUsageFlagBits;
+
 vk::BufferUsageFlags usageOf(BufferUse use) {
     switch (use) {
         case BufferUse::kTexels:
-            return vk::BufferUsageFlagBits::eStorageTexelBuffer;
+            return Usage::eStorageTexelBuffer;
         case BufferUse::kUniform:
-            return vk::BufferUsageFlagBits::eUniformBuffer;
+            return Usage::eUniformBuffer;
         case BufferUse::kStorage:
-            return vk::BufferUsageFlagBits::eStorageBuffer;
+            return Usage::eStorageBuffer;
         case BufferUse::kUnbound:
             return {};
+    }
+    return {};
+}
+
+vk::BufferUsageFlags usageOf(TreeUse use) {
+    switch (use) {
+        case TreeUse::kNone:
+            return {};
+        case TreeUse::kInput:
+            return Usage::eShaderDeviceAddress | Usage::eAccelerationStructureBuildInputReadOnlyKHR;
+        case TreeUse::kStorage:
+            return Usage::eShaderDeviceAddress | Usage::eAccelerationStructureStorageKHR;
+        case TreeUse::kScratch:
+            return Usage::eShaderDeviceAddress | Usage::eStorageBuffer;
     }
     return {};
 }
@@ -63,15 +80,22 @@ void adviseHugePages(void* begin, std::uint64_t size) {
 
 }  // namespace
 
-Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
-               Memory memory, std::string_view name)
-    : device_(&device.handle()), use_(use), size_(std::max<std::uint64_t>((size + 15) / 16 * 16, 16)) {
+Buffer::Buffer(const Device& device, BufferUse use, TreeUse treeUse, std::uint64_t size, Memory memory,
+               std::string_view name)
+    : device_(&device),
+      use_(use),
+      size_(std::max<std::uint64_t>((size + 15) / 16 * 16, 16)),
+      handles_(std::make_unique<Handles>()) {
     if (memory != Memory::kStaging)
         checkLimits(device.info(), use, size_, name);  // staging buffers are never bound
+    const vk::raii::Device& vulkan = device.handles().device;
     try {
-        buffer_ = vk::raii::Buffer(*device_, vk::BufferCreateInfo({}, size_, usageOf(use) | extra));
-        const vk::MemoryRequirements requirements = buffer_.getMemoryRequirements();
-        const vk::PhysicalDeviceMemoryProperties properties = device.physical().getMemoryProperties();
+        handles_->buffer = vk::raii::Buffer(
+            vulkan,
+            vk::BufferCreateInfo(
+                {}, size_, usageOf(use) | usageOf(treeUse) | Usage::eTransferSrc | Usage::eTransferDst));
+        const vk::MemoryRequirements requirements = handles_->buffer.getMemoryRequirements();
+        const vk::PhysicalDeviceMemoryProperties properties = device.handles().physical.getMemoryProperties();
         using Flag = vk::MemoryPropertyFlagBits;
         std::optional<std::uint32_t> type;
         switch (memory) {
@@ -90,79 +114,87 @@ Buffer::Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::Buff
         if (!type) throw MachineError(fmt::format("{}: no memory type for {}", device.info().name, name));
         vk::MemoryAllocateInfo allocation(requirements.size, *type);
         const vk::MemoryAllocateFlagsInfo addressed(vk::MemoryAllocateFlagBits::eDeviceAddress);
-        if (extra & vk::BufferUsageFlagBits::eShaderDeviceAddress) allocation.setPNext(&addressed);
-        memory_ = vk::raii::DeviceMemory(*device_, allocation);
+        if (treeUse != TreeUse::kNone) allocation.setPNext(&addressed);
+        handles_->memory = vk::raii::DeviceMemory(vulkan, allocation);
         allocated_ = requirements.size;
-        buffer_.bindMemory(*memory_, 0);
+        handles_->buffer.bindMemory(*handles_->memory, 0);
         const vk::MemoryPropertyFlags flags = properties.memoryTypes[*type].propertyFlags;
         coherent_ = static_cast<bool>(flags & Flag::eHostCoherent);
-        if (flags & Flag::eHostVisible) mapped_ = memory_.mapMemory(0, VK_WHOLE_SIZE);
+        if (flags & Flag::eHostVisible) mapped_ = handles_->memory.mapMemory(0, VK_WHOLE_SIZE);
         if (mapped_ != nullptr && device.info().kind == DeviceKind::kCpu) adviseHugePages(mapped_, size_);
         if (use == BufferUse::kTexels && memory != Memory::kStaging) {
-            view_ = vk::raii::BufferView(
-                *device_,
-                vk::BufferViewCreateInfo({}, *buffer_, vk::Format::eR32G32B32A32Uint, 0, VK_WHOLE_SIZE));
+            handles_->view = vk::raii::BufferView(
+                vulkan, vk::BufferViewCreateInfo({}, *handles_->buffer, vk::Format::eR32G32B32A32Uint, 0,
+                                                 VK_WHOLE_SIZE));
         }
     } catch (const vk::SystemError& e) {
         throw failureOn(device.info(), fmt::format("allocating {} bytes for {}", size_, name), e);
     }
 }
 
+Buffer::~Buffer() = default;
+Buffer::Buffer(Buffer&& other) noexcept = default;
+Buffer& Buffer::operator=(Buffer&& other) noexcept = default;
+
 void Buffer::write(std::span<const std::byte> bytes) const {
     std::memcpy(mapped_, bytes.data(), bytes.size());
-    if (!coherent_) device_->flushMappedMemoryRanges(vk::MappedMemoryRange(*memory_, 0, VK_WHOLE_SIZE));
+    if (coherent_) return;
+    try {
+        device_->handles().device.flushMappedMemoryRanges(
+            vk::MappedMemoryRange(*handles_->memory, 0, VK_WHOLE_SIZE));
+    } catch (const vk::SystemError& e) {
+        throw failureOn(device_->info(), "writing to the device's memory", e);
+    }
 }
 
 Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
-                      std::string_view name, vk::BufferUsageFlags extra) {
-    Buffer buffer(device, use, bytes.size(), extra | vk::BufferUsageFlagBits::eTransferDst, Memory::kDevice,
-                  name);
+                      std::string_view name, TreeUse treeUse) {
+    Buffer buffer(device, use, treeUse, bytes.size(), Memory::kDevice, name);
     if (bytes.empty()) return buffer;
     if (buffer.mapped_ != nullptr) {
         buffer.write(bytes);
     } else {
-        buffer.writeStaged(device, bytes, name);
+        buffer.writeStaged(bytes, name);
     }
     return buffer;
 }
 
 Buffer Buffer::uploadStaged(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                             std::string_view name) {
-    Buffer buffer(device, use, bytes.size(), vk::BufferUsageFlagBits::eTransferDst, Memory::kDevice, name);
-    if (!bytes.empty()) buffer.writeStaged(device, bytes, name);
+    Buffer buffer(device, use, TreeUse::kNone, bytes.size(), Memory::kDevice, name);
+    if (!bytes.empty()) buffer.writeStaged(bytes, name);
     return buffer;
 }
 
-void Buffer::writeStaged(const Device& device, std::span<const std::byte> bytes,
-                         std::string_view name) const {
-    const Buffer staging(device, BufferUse::kStorage, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc,
-                         Memory::kStaging, name);
+void Buffer::writeStaged(std::span<const std::byte> bytes, std::string_view name) const {
+    const Buffer staging(*device_, BufferUse::kUnbound, TreeUse::kNone, bytes.size(), Memory::kStaging, name);
     staging.write(bytes);
-    runOnce(device, fmt::format("uploading {}", name), [&](const vk::raii::CommandBuffer& commands) {
-        commands.copyBuffer(staging.handle(), handle(), vk::BufferCopy(0, 0, bytes.size()));
-        // The fence makes the copied data available; the barrier makes it visible to all later reads.
-        commands.pipelineBarrier(
-            vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eAllCommands, {},
-            vk::MemoryBarrier(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eMemoryRead), {}, {});
-    });
+    // The end of the commands makes the copied data visible to all later reads.
+    runOnce(*device_, fmt::format("uploading {}", name),
+            [&](const Commands& commands) { commands.copy(staging, 0, *this, 0, bytes.size()); });
 }
 
-Buffer Buffer::device(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
-                      std::string_view name) {
-    return Buffer(device, use, size, extra, Memory::kDevice, name);
+Buffer Buffer::device(const Device& device, BufferUse use, std::uint64_t size, std::string_view name,
+                      TreeUse treeUse) {
+    return Buffer(device, use, treeUse, size, Memory::kDevice, name);
 }
 
-Buffer Buffer::readback(const Device& device, std::uint64_t size, std::string_view name,
-                        vk::BufferUsageFlags extra) {
-    return Buffer(device, BufferUse::kStorage, size, extra, Memory::kReadback, name);
+Buffer Buffer::readback(const Device& device, std::uint64_t size, std::string_view name) {
+    return Buffer(device, BufferUse::kStorage, TreeUse::kNone, size, Memory::kReadback, name);
 }
 
-vk::DeviceAddress Buffer::address() const {
-    return device_->getBufferAddress(vk::BufferDeviceAddressInfo(*buffer_));
+std::uint64_t Buffer::address() const {
+    return device_->handles().device.getBufferAddress(vk::BufferDeviceAddressInfo(*handles_->buffer));
 }
 
 void Buffer::invalidate() const {
-    if (!coherent_) device_->invalidateMappedMemoryRanges(vk::MappedMemoryRange(*memory_, 0, VK_WHOLE_SIZE));
+    if (coherent_) return;
+    try {
+        device_->handles().device.invalidateMappedMemoryRanges(
+            vk::MappedMemoryRange(*handles_->memory, 0, VK_WHOLE_SIZE));
+    } catch (const vk::SystemError& e) {
+        throw failureOn(device_->info(), "reading the device's memory", e);
+    }
 }
 
 }  // namespace duolux

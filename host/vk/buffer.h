@@ -1,10 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <string_view>
-#include <vulkan/vulkan_raii.hpp>
 
 #include "host/vk/device.h"
 
@@ -18,14 +19,18 @@ enum class BufferUse : std::uint8_t {
     kUnbound  ///< not at all
 };
 
-/// A buffer with its own memory. Never empty: a size of 0 is rounded up.
+/// What a buffer is to an acceleration structure. All but kNone require DeviceInfo::rayQueries, and have a
+/// device address.
+enum class TreeUse : std::uint8_t { kNone, kInput, kStorage, kScratch };
+
+/// A buffer with its own memory, which commands can copy and fill. Never empty: a size of 0 is rounded up.
 class Buffer {
   public:
     /// Creates a buffer that the host writes once, through a staging buffer if the device's memory is not
-    /// visible to the host. `name` is for error messages; `extra`: uses in addition to `use`. Throws
-    /// MachineError if the device's limits or memory do not suffice.
+    /// visible to the host. `name` is for error messages. Throws MachineError if the device's limits or
+    /// memory do not suffice.
     static Buffer upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
-                         std::string_view name, vk::BufferUsageFlags extra = {});
+                         std::string_view name, TreeUse treeUse = TreeUse::kNone);
 
     /// Like upload(), but always through a staging buffer, so that tests cover this case on every device.
     static Buffer uploadStaged(const Device& device, BufferUse use, std::span<const std::byte> bytes,
@@ -33,46 +38,46 @@ class Buffer {
 
     template <typename T>
     static Buffer upload(const Device& device, BufferUse use, std::span<const T> items, std::string_view name,
-                         vk::BufferUsageFlags extra = {}) {
-        return upload(device, use, std::as_bytes(items), name, extra);
+                         TreeUse treeUse = TreeUse::kNone) {
+        return upload(device, use, std::as_bytes(items), name, treeUse);
     }
 
     /// Creates a buffer that only the device reads and writes.
-    static Buffer device(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra,
-                         std::string_view name);
+    static Buffer device(const Device& device, BufferUse use, std::uint64_t size, std::string_view name,
+                         TreeUse treeUse = TreeUse::kNone);
 
-    /// Creates a buffer that the device writes and the host reads through mapped(); `extra`: uses in addition
-    /// to that in kernels.
-    static Buffer readback(const Device& device, std::uint64_t size, std::string_view name,
-                           vk::BufferUsageFlags extra = {});
+    /// Creates a buffer that the device writes and the host reads through mapped().
+    static Buffer readback(const Device& device, std::uint64_t size, std::string_view name);
 
-    vk::Buffer handle() const { return *buffer_; }
-    vk::BufferView view() const { return *view_; }  ///< kTexels: R32G32B32A32 uint
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+
     std::uint64_t size() const { return size_; }
     std::uint64_t allocated() const { return allocated_; }  ///< bytes of device memory
     BufferUse use() const { return use_; }
-    /// Device address; requires the extra use eShaderDeviceAddress.
-    vk::DeviceAddress address() const;
+    std::uint64_t address() const;  ///< device address; not with TreeUse::kNone
 
     /// The contents of a readback buffer; valid after invalidate(), once the device has finished.
     const std::byte* mapped() const { return static_cast<const std::byte*>(mapped_); }
     void invalidate() const;
 
+    struct Handles;  ///< as Device::Handles
+    const Handles& handles() const { return *handles_; }
+
   private:
     enum class Memory : std::uint8_t { kDevice, kStaging, kReadback };
-    Buffer(const Device& device, BufferUse use, std::uint64_t size, vk::BufferUsageFlags extra, Memory memory,
+    Buffer(const Device& device, BufferUse use, TreeUse treeUse, std::uint64_t size, Memory memory,
            std::string_view name);
 
     void write(std::span<const std::byte> bytes) const;
-    void writeStaged(const Device& device, std::span<const std::byte> bytes, std::string_view name) const;
+    void writeStaged(std::span<const std::byte> bytes, std::string_view name) const;
 
-    const vk::raii::Device* device_;
+    const Device* device_;
     BufferUse use_;
     std::uint64_t size_;
     std::uint64_t allocated_ = 0;
-    vk::raii::Buffer buffer_{nullptr};
-    vk::raii::DeviceMemory memory_{nullptr};
-    vk::raii::BufferView view_{nullptr};
+    std::unique_ptr<Handles> handles_;
     void* mapped_ = nullptr;
     bool coherent_ = false;
 };

@@ -1,65 +1,113 @@
 #include "host/vk/commands.h"
 
-#include <array>
+#include "host/vk/handles.h"
 
 namespace duolux {
 
 namespace {
 
-vk::raii::CommandBuffer allocate(const Device& device, const vk::raii::CommandPool& pool) {
-    return std::move(vk::raii::CommandBuffers(
-        device.handle(), vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, 1))[0]);
+using Access = vk::AccessFlagBits;
+using Stage = vk::PipelineStageFlagBits;
+
+bool contains(Work all, Work part) {
+    return (static_cast<unsigned>(all) & static_cast<unsigned>(part)) != 0;
 }
 
-vk::raii::QueryPool makeTimestamps(const Device& device) {
-    if (device.timestampPeriod() == 0.0) return nullptr;
-    return {device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)};
+vk::PipelineStageFlags stagesOf(Work work) {
+    vk::PipelineStageFlags stages;
+    if (contains(work, Work::kKernels)) stages |= Stage::eComputeShader;
+    if (contains(work, Work::kTransfers)) stages |= Stage::eTransfer;
+    return stages;
+}
+
+vk::AccessFlags writesOf(Work work) {
+    vk::AccessFlags writes;
+    if (contains(work, Work::kKernels)) writes |= Access::eShaderWrite;
+    if (contains(work, Work::kTransfers)) writes |= Access::eTransferWrite;
+    return writes;
+}
+
+vk::AccessFlags readsOf(Work work) {
+    vk::AccessFlags reads;
+    if (contains(work, Work::kKernels)) reads |= Access::eShaderRead;
+    if (contains(work, Work::kTransfers)) reads |= Access::eTransferRead;
+    return reads;
 }
 
 }  // namespace
 
-CommandSlot::CommandSlot(const Device& device)
-    : device_(&device),
-      pool_(device.handle(), vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
-                                                       device.queueFamily())),
-      commands_(allocate(device, pool_)),
-      fence_(device.handle(), vk::FenceCreateInfo()),
-      timestamps_(makeTimestamps(device)) {}
+void Commands::fill(const Buffer& buffer, std::uint64_t offset, std::uint64_t bytes,
+                    std::uint32_t value) const {
+    handle_.fillBuffer(*buffer.handles().buffer, offset, bytes, value);
+}
+
+void Commands::copy(const Buffer& from, std::uint64_t fromOffset, const Buffer& to, std::uint64_t toOffset,
+                    std::uint64_t bytes) const {
+    handle_.copyBuffer(*from.handles().buffer, *to.handles().buffer,
+                       vk::BufferCopy(fromOffset, toOffset, bytes));
+}
+
+void Commands::barrier(Work before, Work after) const {
+    const vk::MemoryBarrier memory(writesOf(before), readsOf(after) | writesOf(after));
+    handle_.pipelineBarrier(stagesOf(before), stagesOf(after), {}, memory, {}, {});
+}
+
+struct CommandSlot::Handles {
+    explicit Handles(const Device::Handles& device)
+        : pool(device.device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                                        device.queueFamily)),
+          commands(std::move(vk::raii::CommandBuffers(
+              device.device, vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, 1))[0])),
+          fence(device.device, vk::FenceCreateInfo()) {
+        if (device.timestampPeriod == 0.0) return;
+        timestamps = {device.device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)};
+    }
+
+    vk::raii::CommandPool pool;
+    vk::raii::CommandBuffer commands;
+    vk::raii::Fence fence;
+    vk::raii::QueryPool timestamps{nullptr};
+};
+
+CommandSlot::CommandSlot(const Device& device) try
+    : device_(&device), handles_(std::make_unique<Handles>(device.handles())) {
+} catch (const vk::SystemError& e) {
+    throw failureOn(device.info(), "creating a command buffer", e);
+}
 
 CommandSlot::~CommandSlot() {
     if (!inFlight_) return;
     try {
-        static_cast<void>(device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX));
+        static_cast<void>(device_->handles().device.waitForFences(*handles_->fence, VK_TRUE, UINT64_MAX));
     } catch (const vk::SystemError&) {
         // The device is lost, so nothing is in flight any more.
     }
 }
 
-void CommandSlot::submit(std::string_view stage,
-                         const std::function<void(const vk::raii::CommandBuffer&)>& record) {
+void CommandSlot::submit(std::string_view stage, const std::function<void(const Commands&)>& record) {
+    const vk::raii::CommandBuffer& commands = handles_->commands;
+    const bool timed = device_->handles().timestampPeriod > 0.0;
     try {
-        commands_.reset();
-        commands_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-        const bool timed = device_->timestampPeriod() > 0.0;
+        commands.reset();
+        commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
         if (timed) {
-            commands_.resetQueryPool(*timestamps_, 0, 2);
+            commands.resetQueryPool(*handles_->timestamps, 0, 2);
             // The timestamp is written after all dispatches submitted earlier have finished.
-            commands_.writeTimestamp(vk::PipelineStageFlagBits::eComputeShader, *timestamps_, 0);
+            commands.writeTimestamp(Stage::eComputeShader, *handles_->timestamps, 0);
         }
-        record(commands_);
-        if (timed) commands_.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
+        record(Commands(commands));
+        if (timed) commands.writeTimestamp(Stage::eBottomOfPipe, *handles_->timestamps, 1);
         // Makes the device's writes visible to the host and to later submissions.
-        using Access = vk::AccessFlagBits;
         const vk::MemoryBarrier written(Access::eMemoryWrite,
                                         Access::eHostRead | Access::eMemoryRead | Access::eMemoryWrite);
-        const vk::PipelineStageFlags all = vk::PipelineStageFlagBits::eAllCommands;
-        commands_.pipelineBarrier(all, all | vk::PipelineStageFlagBits::eHost, {}, written, {}, {});
-        commands_.end();
-        device_->handle().resetFences(*fence_);
+        const vk::PipelineStageFlags all = Stage::eAllCommands;
+        commands.pipelineBarrier(all, all | Stage::eHost, {}, written, {}, {});
+        commands.end();
+        device_->handles().device.resetFences(*handles_->fence);
         vk::SubmitInfo submit;
-        const vk::CommandBuffer handle = *commands_;
+        const vk::CommandBuffer handle = *commands;
         submit.setCommandBuffers(handle);
-        device_->queue().submit(submit, *fence_);
+        device_->handles().queue.submit(submit, *handles_->fence);
         inFlight_ = true;
     } catch (const vk::SystemError& e) {
         throw failureOn(device_->info(), stage, e);
@@ -67,22 +115,23 @@ void CommandSlot::submit(std::string_view stage,
 }
 
 double CommandSlot::wait(std::string_view stage) {
+    const Device::Handles& device = device_->handles();
     try {
         // Without a time limit, every result other than success is thrown as an exception.
-        static_cast<void>(device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX));
+        static_cast<void>(device.device.waitForFences(*handles_->fence, VK_TRUE, UINT64_MAX));
         inFlight_ = false;
-        if (device_->timestampPeriod() == 0.0) return 0.0;
-        const auto [status, ticks] = timestamps_.getResults<std::uint64_t>(
+        if (device.timestampPeriod == 0.0) return 0.0;
+        const auto [status, ticks] = handles_->timestamps.getResults<std::uint64_t>(
             0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
         if (status != vk::Result::eSuccess) return 0.0;
-        return static_cast<double>(ticks[1] - ticks[0]) * device_->timestampPeriod() * 1e-9;
+        return static_cast<double>(ticks[1] - ticks[0]) * device.timestampPeriod * 1e-9;
     } catch (const vk::SystemError& e) {
         throw failureOn(device_->info(), stage, e);
     }
 }
 
 void runOnce(const Device& device, std::string_view stage,
-             const std::function<void(const vk::raii::CommandBuffer&)>& record) {
+             const std::function<void(const Commands&)>& record) {
     CommandSlot slot(device);
     slot.submit(stage, record);
     slot.wait(stage);

@@ -9,6 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/base/memory.h"
+#include "host/vk/handles.h"
 
 namespace duolux {
 
@@ -81,10 +82,13 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
     info.name = properties.deviceName.data();
     info.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
     info.kind = properties.deviceType == vk::PhysicalDeviceType::eCpu ? DeviceKind::kCpu : DeviceKind::kGpu;
-    info.apiVersion = properties.apiVersion;
+    info.vulkanVersion =
+        fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
+                    VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
     info.subgroupSize = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
     info.maxStorageBufferRange = properties.limits.maxStorageBufferRange;
     info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
+    info.maxStorageBuffers = properties.limits.maxPerStageDescriptorStorageBuffers;
     info.maxWorkgroupSize = std::min(properties.limits.maxComputeWorkGroupSize[0],
                                      properties.limits.maxComputeWorkGroupInvocations);
     const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
@@ -194,17 +198,32 @@ MachineError failureOn(const DeviceInfo& device, std::string_view stage, const v
                                     result == vk::Result::eErrorDeviceLost ? "" : addressSpaceHint()));
 }
 
-Device::Device(std::string_view selector, Validation validation)
-    : instance_(validation), physical_(nullptr), device_(nullptr), queue_(nullptr) {
-    std::vector<vk::raii::PhysicalDevice> all = instance_.devices();
-    info_ = selectDevice(describeAll(all), selector);
-    physical_ = std::move(all[info_.index]);
-    queueFamily_ = computeFamily(physical_);
-    device_ = makeDevice(physical_, queueFamily_, info_);
-    queue_ = vk::raii::Queue(device_, queueFamily_, 0);
-    if (physical_.getQueueFamilyProperties()[queueFamily_].timestampValidBits > 0) {
-        timestampPeriod_ = static_cast<double>(physical_.getProperties().limits.timestampPeriod);
+namespace {
+
+std::unique_ptr<Device::Handles> openDevice(std::string_view selector, Validation validation,
+                                            DeviceInfo& info) {
+    auto handles = std::make_unique<Device::Handles>(validation);
+    std::vector<vk::raii::PhysicalDevice> all = handles->instance.devices();
+    info = selectDevice(describeAll(all), selector);
+    const vk::raii::PhysicalDevice& physical = handles->physical = std::move(all[info.index]);
+    handles->queueFamily = computeFamily(physical);
+    handles->device = makeDevice(physical, handles->queueFamily, info);
+    handles->queue = vk::raii::Queue(handles->device, handles->queueFamily, 0);
+    if (physical.getQueueFamilyProperties()[handles->queueFamily].timestampValidBits > 0) {
+        handles->timestampPeriod = static_cast<double>(physical.getProperties().limits.timestampPeriod);
     }
+    return handles;
+}
+
+}  // namespace
+
+Device::Device(std::string_view selector, Validation validation)
+    : handles_(openDevice(selector, validation, info_)) {}
+
+Device::~Device() = default;
+
+std::vector<std::string> Device::validationMessages() const {
+    return handles_->instance.validationMessages();
 }
 
 }  // namespace duolux

@@ -1,25 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
-#include "host/base/error.h"
+#include "host/vk/device.h"
 
 namespace duolux {
-
-enum class Validation : std::uint8_t {
-    kOff,
-    kOn  ///< core and synchronization validation; throws MachineError if the layer is not installed
-};
-
-/// No Vulkan driver could be loaded, or none has a device.
-class NoDriverError : public MachineError {
-  public:
-    using MachineError::MachineError;
-};
 
 /// The Vulkan loader with all drivers it can load.
 class Instance {

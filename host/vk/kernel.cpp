@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
+#include "host/vk/handles.h"
+
 namespace duolux {
 
 namespace {
@@ -23,10 +28,20 @@ vk::DescriptorType descriptorType(const Binding& binding) {
 
 }  // namespace
 
+struct Kernel::Handles {
+    vk::raii::DescriptorSetLayout setLayout{nullptr};
+    vk::raii::PipelineLayout layout{nullptr};
+    vk::raii::DescriptorPool pool{nullptr};
+    vk::raii::DescriptorSet set{nullptr};
+    vk::raii::Pipeline pipeline{nullptr};
+};
+
 Kernel::Kernel(const Device& device, std::string_view name, std::span<const std::uint32_t> spirv,
                std::span<const Binding> bindings, std::span<const Specialization> specialization,
-               std::uint32_t pushConstantBytes) {
-    const vk::raii::Device& handle = device.handle();
+               std::uint32_t pushConstantBytes)
+    : handles_(std::make_unique<Handles>()) {
+    const vk::raii::Device& handle = device.handles().device;
+    auto& [setLayout, layout, pool, set, pipeline] = *handles_;
     try {
         std::vector<vk::DescriptorSetLayoutBinding> layoutBindings;
         std::vector<vk::DescriptorPoolSize> sizes;
@@ -39,34 +54,35 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
                 layoutBindings.emplace_back(b.binding, type, 1, vk::ShaderStageFlagBits::eCompute);
             }
         }
-        setLayout_ =
+        setLayout =
             vk::raii::DescriptorSetLayout(handle, vk::DescriptorSetLayoutCreateInfo({}, layoutBindings));
         const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, pushConstantBytes);
-        const vk::DescriptorSetLayout setLayout = *setLayout_;
-        vk::PipelineLayoutCreateInfo layoutCreate({}, setLayout);
+        vk::PipelineLayoutCreateInfo layoutCreate({}, *setLayout);
         if (pushConstantBytes > 0) layoutCreate.setPushConstantRanges(range);
-        layout_ = vk::raii::PipelineLayout(handle, layoutCreate);
+        layout = vk::raii::PipelineLayout(handle, layoutCreate);
 
         const vk::DescriptorPoolCreateFlags freeable = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet;
-        pool_ = vk::raii::DescriptorPool(handle, vk::DescriptorPoolCreateInfo(freeable, 1, sizes));
-        set_ =
-            std::move(vk::raii::DescriptorSets(handle, vk::DescriptorSetAllocateInfo(*pool_, setLayout))[0]);
+        pool = vk::raii::DescriptorPool(handle, vk::DescriptorPoolCreateInfo(freeable, 1, sizes));
+        set =
+            std::move(vk::raii::DescriptorSets(handle, vk::DescriptorSetAllocateInfo(*pool, *setLayout))[0]);
         std::uint32_t element = 0;
         for (std::size_t i = 0; i < bindings.size(); ++i) {
             const Binding& b = bindings[i];
             element = i > 0 && bindings[i - 1].binding == b.binding ? element + 1 : 0;
             const vk::DescriptorType type = descriptorType(b);
-            const vk::WriteDescriptorSetAccelerationStructureKHR structure(b.structure);
+            vk::AccelerationStructureKHR tree;
+            if (b.buffer == nullptr) tree = *b.structure->handles().top.structure;
+            const vk::WriteDescriptorSetAccelerationStructureKHR structure(tree);
             vk::DescriptorBufferInfo info({}, 0, VK_WHOLE_SIZE);
             vk::BufferView view;
-            vk::WriteDescriptorSet write(*set_, b.binding, element, 1, type);
+            vk::WriteDescriptorSet write(*set, b.binding, element, 1, type);
             if (b.buffer == nullptr) {
                 write.setPNext(&structure);
-            } else if (b.buffer->view()) {
-                view = b.buffer->view();
+            } else if (b.buffer->use() == BufferUse::kTexels) {
+                view = *b.buffer->handles().view;
                 write.setPTexelBufferView(&view);
             } else {
-                info.setBuffer(b.buffer->handle());
+                info.setBuffer(*b.buffer->handles().buffer);
                 write.setPBufferInfo(&info);
             }
             handle.updateDescriptorSets(write, {});
@@ -85,20 +101,24 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
                                             vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
         const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
                                                       &info);
-        pipeline_ = vk::raii::Pipeline(handle, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
+        pipeline = vk::raii::Pipeline(handle, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
     } catch (const vk::SystemError& e) {
         throw failureOn(device.info(), fmt::format("creating the pipeline of kernel '{}'", name), e);
     }
 }
 
-void Kernel::record(const vk::raii::CommandBuffer& commands, std::span<const std::byte> push,
-                    std::uint32_t groups) const {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, *set_, {});
-    commands.pushConstants<std::byte>(
-        *layout_, vk::ShaderStageFlagBits::eCompute, 0,
+Kernel::~Kernel() = default;
+Kernel::Kernel(Kernel&& other) noexcept = default;
+Kernel& Kernel::operator=(Kernel&& other) noexcept = default;
+
+void Kernel::record(const Commands& commands, std::span<const std::byte> push, std::uint32_t groups) const {
+    const vk::raii::CommandBuffer& vulkan = commands.handle();
+    vulkan.bindPipeline(vk::PipelineBindPoint::eCompute, *handles_->pipeline);
+    vulkan.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *handles_->layout, 0, *handles_->set, {});
+    vulkan.pushConstants<std::byte>(
+        *handles_->layout, vk::ShaderStageFlagBits::eCompute, 0,
         vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push.size()), push.data()));
-    commands.dispatch(groups, 1, 1);
+    vulkan.dispatch(groups, 1, 1);
 }
 
 }  // namespace duolux

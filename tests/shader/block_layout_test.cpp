@@ -31,7 +31,7 @@ std::vector<std::uint32_t> run(const std::string& declarations, const std::strin
     bindings.push_back({1, &output});
     const Kernel kernel(device(), "layout", compileKernel(glsl), bindings, {}, sizeof(Push));
     runOnce(device(), "probing a layout",
-            [&](const vk::raii::CommandBuffer& commands) { kernel.dispatch(commands, push, 1); });
+            [&](const Commands& commands) { kernel.dispatch(commands, push, 1); });
     output.invalidate();
     std::vector<std::uint32_t> result(words);
     std::memcpy(result.data(), output.mapped(), words * sizeof(std::uint32_t));

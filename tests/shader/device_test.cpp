@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/base/temporary_folder.h"
+#include "host/vk/handles.h"
 #include "tests/support/run_program.h"
 
 // The device on which tests run, and the behaviour without one.
@@ -17,8 +18,8 @@ namespace {
 TEST(TestDevice, IsLavapipeUnlessAnotherIsAskedFor) {
     const auto driver =
         device()
-            .physical()
-            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+            .handles()
+            .physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
             .get<vk::PhysicalDeviceDriverProperties>();
     RecordProperty("device", device().info().name);
     RecordProperty("driver", device().info().driver);

@@ -29,9 +29,8 @@ std::vector<std::uint32_t> readByKernel(const Buffer& buffer, std::uint32_t coun
     const Buffer output = Buffer::readback(device(), count * sizeof(std::uint32_t), "outputs");
     const Kernel copy(device(), "copy", kernel, std::vector<Binding>{{0, &buffer}, {1, &output}}, {},
                       sizeof count);
-    runOnce(device(), "copying", [&](const vk::raii::CommandBuffer& commands) {
-        copy.dispatch(commands, count, (count + 63) / 64);
-    });
+    runOnce(device(), "copying",
+            [&](const Commands& commands) { copy.dispatch(commands, count, (count + 63) / 64); });
     output.invalidate();
     std::vector<std::uint32_t> words(count);
     std::memcpy(words.data(), output.mapped(), count * sizeof(std::uint32_t));

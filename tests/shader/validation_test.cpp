@@ -16,13 +16,11 @@ TEST(Validation, ReportsASynchronizationHazard) {
     Device device(deviceSelector(), Validation::kOn);
     const std::vector<std::uint32_t> zeros(64);
     const Buffer buffer = Buffer::upload<std::uint32_t>(device, BufferUse::kStorage, zeros, "zeros");
-    runOnce(device, "filling", [&](const vk::raii::CommandBuffer& commands) {
-        commands.fillBuffer(buffer.handle(), 0, 256, 1);
-    });
+    runOnce(device, "filling", [&](const Commands& commands) { commands.fill(buffer, 0, 256, 1); });
     EXPECT_THAT(device.validationMessages(), testing::IsEmpty());
-    runOnce(device, "filling twice without a barrier", [&](const vk::raii::CommandBuffer& commands) {
-        commands.fillBuffer(buffer.handle(), 0, 256, 1);
-        commands.fillBuffer(buffer.handle(), 0, 256, 2);
+    runOnce(device, "filling twice without a barrier", [&](const Commands& commands) {
+        commands.fill(buffer, 0, 256, 1);
+        commands.fill(buffer, 0, 256, 2);
     });
     EXPECT_THAT(device.validationMessages(), testing::Contains(testing::HasSubstr("WRITE_AFTER_WRITE")));
 }

@@ -84,7 +84,7 @@ void dispatchAll(const Kernel& kernel, const GlslFile::Test& test, std::uint32_t
     for (std::uint32_t first = 0; first < test.count; first += kInvocationsPerDispatch) {
         const std::uint32_t count = std::min(kInvocationsPerDispatch, test.count - first);
         const shared::TestDispatch push{first, test.count, hashOf(test.name) ^ randomSeed(), pass, noted};
-        runOnce(device(), test.name, [&](const vk::raii::CommandBuffer& commands) {
+        runOnce(device(), test.name, [&](const Commands& commands) {
             kernel.dispatch(commands, push, (count + shared::kTestWorkgroup - 1) / shared::kTestWorkgroup);
         });
     }
@@ -158,13 +158,13 @@ std::vector<GlslFailure> runGlslTest(const GlslFile& file, std::size_t index) {
     const std::vector<std::uint32_t> spirv = kernels().of(file);
     const std::size_t lines = file.lines + 1;
     const std::size_t words = (test.count + 31) / 32;
-    const Buffer expectations = Buffer::readback(device(), lines * sizeof(shared::Expectation),
-                                                 "expectations", vk::BufferUsageFlagBits::eTransferDst);
-    const Buffer invocations = Buffer::readback(device(), words * sizeof(std::uint32_t), "failed invocations",
-                                                vk::BufferUsageFlagBits::eTransferDst);
-    runOnce(device(), "clearing expectations", [&](const vk::raii::CommandBuffer& commands) {
-        commands.fillBuffer(expectations.handle(), 0, VK_WHOLE_SIZE, 0);
-        commands.fillBuffer(invocations.handle(), 0, VK_WHOLE_SIZE, 0);
+    const Buffer expectations =
+        Buffer::readback(device(), lines * sizeof(shared::Expectation), "expectations");
+    const Buffer invocations =
+        Buffer::readback(device(), words * sizeof(std::uint32_t), "failed invocations");
+    runOnce(device(), "clearing expectations", [&](const Commands& commands) {
+        commands.fill(expectations, 0);
+        commands.fill(invocations, 0);
     });
     const Kernel kernel =
         harnessKernel(file.name, spirv,

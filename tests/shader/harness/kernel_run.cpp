@@ -24,12 +24,10 @@ Kernel harnessKernel(std::string_view name, std::span<const std::uint32_t> spirv
     if (coverageWords() > 0) {
         std::unique_ptr<Buffer>& buffer = coverageBuffer();
         if (buffer == nullptr) {
-            buffer =
-                std::make_unique<Buffer>(Buffer::readback(device(), coverageWords() * sizeof(std::uint32_t),
-                                                          "coverage", vk::BufferUsageFlagBits::eTransferDst));
-            runOnce(device(), "clearing coverage", [&](const vk::raii::CommandBuffer& commands) {
-                commands.fillBuffer(buffer->handle(), 0, VK_WHOLE_SIZE, 0);
-            });
+            buffer = std::make_unique<Buffer>(
+                Buffer::readback(device(), coverageWords() * sizeof(std::uint32_t), "coverage"));
+            runOnce(device(), "clearing coverage",
+                    [&](const Commands& commands) { commands.fill(*buffer, 0); });
         }
         bindings.push_back({shared::kBindingCoverage, buffer.get()});
     }

@@ -135,7 +135,7 @@ void ShaderLibrary::run(std::string_view statements, const std::vector<Array>& a
         for (const Buffer& b : texels)
             bindings.push_back({static_cast<std::uint32_t>(bindings.size()), &b});
         const Kernel kernel = harnessKernel(statements, *spirv, bindings, constants, sizeof(std::uint32_t));
-        runOnce(device(), statements, [&](const vk::raii::CommandBuffer& commands) {
+        runOnce(device(), statements, [&](const Commands& commands) {
             const auto push = static_cast<std::uint32_t>(count);
             kernel.dispatch(commands, push, (push + shared::kTestWorkgroup - 1) / shared::kTestWorkgroup);
         });

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "host/vk/acceleration_structure.h"
+#include "host/vk/buffer.h"
+#include "host/vk/device.h"
+#include "host/vk/instance.h"
+
+// Vulkan's objects behind the classes of this folder. Its other headers do not include Vulkan's, which take
+// seconds to compile.
+
+namespace duolux {
+
+struct Device::Handles {
+    explicit Handles(Validation validation) : instance(validation) {}
+
+    Instance instance;
+    vk::raii::PhysicalDevice physical{nullptr};
+    vk::raii::Device device{nullptr};
+    vk::raii::Queue queue{nullptr};
+    std::uint32_t queueFamily = 0;
+    double timestampPeriod = 0.0;  ///< nanoseconds per tick; 0: no timestamps
+};
+
+struct Buffer::Handles {
+    vk::raii::Buffer buffer{nullptr};
+    vk::raii::DeviceMemory memory{nullptr};
+    vk::raii::BufferView view{nullptr};  ///< kTexels: R32G32B32A32 uint
+};
+
+struct AccelerationStructure::Handles {
+    /// The tree of a part (bottom level), or the tree over all parts (top level).
+    struct Level {
+        Buffer memory;
+        vk::raii::AccelerationStructureKHR structure;
+    };
+    std::vector<Level> parts;
+    Level top;
+};
+
+/// The exception for a failed call to a device. `stage`: what failed, for example "tracing paths".
+MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error);
+
+}  // namespace duolux
