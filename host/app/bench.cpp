@@ -134,9 +134,9 @@ void addBenchCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure kernels, whole renders and host code");
     auto options = std::make_shared<BenchOptions>();
     command
-        ->add_option(
-            "SCENE", options->scenes,
-            fmt::format("Scene files (.json, .obj), or built-in: {}", fmt::join(builtinSceneNames(), ", ")))
+        ->add_option("SCENE", options->scenes,
+                     fmt::format("Scene files (.json, .obj, .ply), or built-in: {}",
+                                 fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
     command
         ->add_option("--only", options->only,

@@ -14,7 +14,7 @@
 namespace duolux {
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {
-    command.add_option("SCENE", options.scene, "The scene: .obj (with its .mtl) or .json")->required();
+    command.add_option("SCENE", options.scene, "The scene: .obj (with its .mtl), .ply or .json")->required();
     command
         .add_option("-o,--output", options.outputs,
                     "Images to write: .exr, .png or .pfm; may be given several times (default: SCENE's name "
@@ -118,8 +118,8 @@ void sortWords(const CLI::App& command, RenderOptions& options) {
         (isOutput ? options.outputs : others).push_back(std::move(word));
     }
     if (others.empty()) {
-        throw UsageError(
-            fmt::format("render: {} is an image; expected a SCENE: an .obj or .json file", options.scene));
+        throw UsageError(fmt::format("render: {} is an image; expected a SCENE: an .obj, .ply or .json file",
+                                     options.scene));
     }
     options.scene = others.front();
     others.erase(others.begin());

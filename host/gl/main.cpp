@@ -152,7 +152,7 @@ int parseAndRun(int argc, char** argv) {
         "duolux-gl"};
     app.set_version_flag("--version", fmt::format("duolux-gl {} ({})", versionString(), commitString()));
     app.get_formatter()->column_width(36);
-    app.add_option("SCENE", arguments.scene, "The scene: .obj (with its .mtl) or .json")->required();
+    app.add_option("SCENE", arguments.scene, "The scene: .obj (with its .mtl), .ply or .json")->required();
     app.add_option("-o,--output", arguments.outputs,
                    "Image to write: .exr, .png or .pfm; may be given several times")
         ->required()

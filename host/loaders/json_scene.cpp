@@ -144,7 +144,7 @@ glm::dmat4 readTransform(const JsonNode& node) {
 }
 
 fs::path readMeshPath(const JsonNode& node) {
-    const char* const remedy = "expected the path of an .obj file, relative to the scene file";
+    const char* const remedy = "expected the path of an .obj or .ply file, relative to the scene file";
     const fs::path folder = node.file().parent_path();
     fs::path path = node.text(remedy);
     std::error_code ec;
@@ -170,7 +170,8 @@ void readObjects(const JsonNode& node, SceneContents& contents) {
     std::map<fs::path, std::size_t> meshes, byPath;
     for (const JsonNode& object : node.elements("expected an array of objects")) {
         object.expectKeys({"mesh", "transform"});
-        const fs::path path = readMeshPath(object.require("mesh", "expected the path of an .obj file"));
+        const fs::path path =
+            readMeshPath(object.require("mesh", "expected the path of an .obj or .ply file"));
         const std::optional<JsonNode> transform = object.find("transform");
         std::optional<glm::dmat4> matrix;
         if (transform) matrix = readTransform(*transform);

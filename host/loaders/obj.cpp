@@ -1,7 +1,5 @@
 #include "host/loaders/obj.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -102,7 +100,7 @@ class PartTriangulator {
         }
         polygon_.clear();
         for (std::uint32_t i = begin; i < end; ++i)
-            polygon_.push_back(file_.positions[vertex(i)]);
+            polygon_.push_back(file_.rounded.positions[vertex(i)]);
         triangulate(polygon_, triangles_);
     }
 
@@ -147,7 +145,7 @@ Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
             file.parts[i] = ObjPart();  // frees the memory
         }
     });
-    geometry.positions = std::move(file.positions);
+    geometry.positions = std::move(file.rounded.positions);
     if (anyNormal) geometry.normals = std::move(file.normals);
     if (anyGroup) addSmoothNormals(geometry, groups);
     if (geometry.normals.empty()) geometry.normalIndices.clear();
@@ -167,19 +165,14 @@ Mesh loadObj(const fs::path& path, MaterialFiles& files) {
         file = parseObj(text, files.reading());
         warnOfOddities(text, file.oddities, mesh.warnings);
     }
-    if (file.loss.vertices > 0) {
-        mesh.warnings.push_back(
-            fmt::format("{}: single precision moves {} vert{} by up to {:.2g}; typical edges are {:.2g} long",
-                        path.string(), file.loss.vertices, file.loss.vertices == 1 ? "ex" : "ices",
-                        file.loss.largest, file.loss.typicalEdge));
-    }
+    warnOfLoss(path, file.rounded.loss, mesh.warnings);
     ObjMaterials materials(path, files);
     for (const ObjPart& part : file.parts) {
         for (const std::string& names : part.notes.libraries)
             materials.load(names);
     }
     const std::vector<PartStart> starts = findStarts(file, materials);
-    mesh.origin = file.origin;
+    mesh.origin = file.rounded.origin;
     mesh.geometry = buildGeometry(std::move(file), starts);
     materials.moveTo(mesh);
     if (mesh.geometry.triangles.empty()) {

@@ -15,7 +15,6 @@
 #include "host/base/parallel.h"
 #include "host/base/printable.h"
 #include "host/scene/mesh.h"
-#include "host/scene/origin.h"
 
 namespace duolux {
 
@@ -65,16 +64,19 @@ std::size_t offsetOfVertex(std::string_view text, std::size_t ordinal) {
 class Positions {
   public:
     Positions(const SourceText& text, ObjFile& file, std::vector<glm::dvec3> values)
-        : text_(text), file_(file), values_(std::move(values)) {}
+        : text_(text), file_(file), values_(std::move(values)) {
+        for (const ObjPart& part : file.parts)
+            polygons_.push_back({part.faceEnds, part.cornerVertices});
+    }
 
     /// Invalid vertices are an error if a face uses one or there are no faces; otherwise they are counted.
     void settleBadVertices() {
-        const bool anyFace = std::any_of(file_.parts.begin(), file_.parts.end(),
-                                         [](const ObjPart& part) { return !part.faceEnds.empty(); });
+        const bool anyFace = std::any_of(polygons_.begin(), polygons_.end(),
+                                         [](const PolygonView& part) { return !part.ends.empty(); });
         std::vector<bool> used;
         for (const ObjPart& part : file_.parts) {
             for (const ObjPart::BadVertex& vertex : part.badVertices) {
-                if (used.empty()) used = usedVertices();
+                if (used.empty()) used = usedVertices(values_.size(), polygons_);
                 if (used[vertex.index] || !anyFace) fail(part, vertex);
                 file_.oddities.add(ObjOddity::kUnusedVertex, part.offset + vertex.offset);
                 values_[vertex.index] = glm::dvec3(0.0);
@@ -82,25 +84,9 @@ class Positions {
         }
     }
 
-    /// Converts the positions to floats relative to the file's origin.
     void round(Reading reading) {
-        const double tolerance = kUnnoticed * typicalEdge();
-        WideBounds all;
-        for (const glm::dvec3& value : values_)
-            all.add(value);
-        const WideBounds bounds = usedBounds(all);
-        const bool mayLose = !all.empty() && largestRoundingError(all.reach()) > tolerance;
-        file_.origin = mayLose ? originFor(bounds, samples(tolerance)) : originFor(bounds);
-        file_.positions.resize(values_.size());
-        bool inRange = true;
-        const auto largest = static_cast<double>(kLargestCoordinate);
-        for (std::size_t i = 0; i < values_.size(); ++i) {
-            const glm::dvec3 position = values_[i] - file_.origin;
-            inRange = inRange && glm::all(glm::lessThanEqual(glm::abs(position), glm::dvec3(largest)));
-            file_.positions[i] = glm::vec3(position);
-        }
-        if (!inRange) settleFarVertices(reading);
-        if (mayLose) measureLoss(tolerance);
+        file_.rounded = roundPositions(values_, polygons_);
+        if (!file_.rounded.inRange) settleFarVertices(reading);
     }
 
   private:
@@ -113,74 +99,11 @@ class Positions {
                     "expected \"v x y z\""});
     }
 
-    std::vector<bool> usedVertices() const {
-        std::vector<bool> used(values_.size(), false);
-        for (const ObjPart& part : file_.parts) {
-            for (const std::uint32_t vertex : part.cornerVertices)
-                used[vertex] = true;
-        }
-        return used;
-    }
-
-    /// Bounds of the vertices that faces use, or of some of them if these are already so far apart that no
-    /// origin is needed.
-    WideBounds usedBounds(const WideBounds& all) const {
-        WideBounds bounds;
-        for (const ObjPart& part : file_.parts) {
-            for (const std::uint32_t vertex : part.cornerVertices) {
-                bounds.add(values_[vertex]);
-                if (kFarAway * bounds.extent() >= all.reach()) return bounds;
-            }
-        }
-        return bounds;
-    }
-
-    /// The median length over two edges of each of many faces.
-    double typicalEdge() const {
-        constexpr std::size_t kMost = 4096;
-        std::size_t faces = 0;
-        for (const ObjPart& part : file_.parts)
-            faces += part.faceEnds.size();
-        std::vector<double> lengths;
-        for (const ObjPart& part : file_.parts) {
-            for (std::size_t face = 0; face < part.faceEnds.size(); face += faces / kMost + 1) {
-                const std::uint32_t* corner = &part.cornerVertices[part.faceEnds[face] - 3];
-                for (int i = 0; i < 2; ++i)
-                    lengths.push_back(glm::distance(values_[corner[i]], values_[corner[i + 1]]));
-            }
-        }
-        return medianOf(std::move(lengths));
-    }
-
-    std::vector<OriginSample> samples(double tolerance) const {
-        constexpr std::size_t kMost = 1u << 16;
-        std::size_t corners = 0;
-        for (const ObjPart& part : file_.parts)
-            corners += part.cornerVertices.size();
-        std::vector<OriginSample> samples;
-        for (const ObjPart& part : file_.parts) {
-            for (std::size_t i = 0; i < part.cornerVertices.size(); i += corners / kMost + 1)
-                samples.push_back({values_[part.cornerVertices[i]], tolerance});
-        }
-        return samples;
-    }
-
-    void measureLoss(double tolerance) {
-        const std::vector<bool> used = usedVertices();
-        RoundingLoss& loss = file_.loss;
-        loss.typicalEdge = tolerance / kUnnoticed;
-        for (std::size_t i = 0; i < values_.size(); ++i) {
-            const double error = used[i] ? roundingError(values_[i] - file_.origin) : 0.0;
-            loss.vertices += error > tolerance ? 1 : 0;
-            loss.largest = std::max(loss.largest, error);
-        }
-    }
-
     void settleFarVertices(Reading reading) {
-        const std::vector<bool> used = usedVertices();
+        const std::vector<bool> used = usedVertices(values_.size(), polygons_);
         for (std::size_t i = 0; i < values_.size(); ++i) {
-            const glm::vec3 size = glm::abs(file_.positions[i]);
-            if (glm::all(glm::lessThanEqual(size, glm::vec3(kLargestCoordinate)))) continue;
+            glm::vec3& position = file_.rounded.positions[i];
+            if (glm::all(glm::lessThanEqual(glm::abs(position), glm::vec3(kLargestCoordinate)))) continue;
             const bool refused = used[i] || reading == Reading::kStrict;
             const bool isFirst = file_.oddities[ObjOddity::kUnusedVertex].count == 0;
             const std::size_t offset = refused || isFirst ? offsetOfVertex(text_.view(), i) : 0;
@@ -189,13 +112,14 @@ class Positions {
                             fmt::format("expected at most {:g} in magnitude", kLargestCoordinate)});
             }
             file_.oddities.add(ObjOddity::kUnusedVertex, offset);
-            file_.positions[i] = glm::vec3(0.0f);
+            position = glm::vec3(0.0f);
         }
     }
 
     const SourceText& text_;
     ObjFile& file_;
     std::vector<glm::dvec3> values_;
+    std::vector<PolygonView> polygons_;  ///< per part
 };
 
 /// Throws if all faces are invalid; a file with some valid faces is loaded without the invalid ones.

@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/loaders/json_scene.h"
 #include "host/loaders/obj.h"
+#include "host/loaders/ply.h"
 #include "host/scene/compose.h"
 
 namespace duolux {
@@ -21,7 +22,7 @@ struct MeshFormat {
     std::string_view extension;
     Mesh (*load)(const fs::path& path, MaterialFiles& files);
 };
-constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}};
+constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}};
 
 std::string extensionOf(const fs::path& path) {
     std::string extension = path.extension().string();
@@ -67,7 +68,8 @@ Mesh loadMesh(const fs::path& path, MaterialFiles& files) {
 
 void requireScenePath(const fs::path& path) {
     if (!isMeshPath(path) && extensionOf(path) != ".json")
-        throw InputError(path.string(), "", "has no extension of a scene file", "expected .obj or .json");
+        throw InputError(path.string(), "", "has no extension of a scene file",
+                         "expected .obj, .ply or .json");
 }
 
 SceneFile readSceneFile(const fs::path& path, Reading reading) {

@@ -83,7 +83,19 @@ std::vector<MalformedScene> malformedObjs() {
                    {"mesh.obj: line 4: ", "\"usemtl NAME\""})),
         strict(obj("LibraryWithoutName", "mtllib \n" + kVertices + "f 1 2 3\n",
                    {"mesh.obj: line 1: ", "\"mtllib FILE.mtl\""})),
-        {"UnknownExtension", {{"mesh.stl", "solid\n"}}, {"mesh.stl: ", ".obj", ".json"}},
+        {"PlyOfFourBillion",
+         {{"mesh.ply",
+           "ply\nformat binary_big_endian 1.0\nelement vertex 4294967295\nproperty float x\nproperty float "
+           "y\n"
+           "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"}},
+         {"mesh.ply: element vertex: ", "too large", "2^31"}},
+        {"PlyCutOff",
+         {{"mesh.ply",
+           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0.00 0.00 0.00\n1.00 0.00 0.00\n0 1"}},
+         {"mesh.ply: line 12 (vertex 3 of 3): ", "ends here", "expected 3"}},
+        {"PlyThatIsObj", {{"mesh.ply", kVertices}}, {"mesh.ply: line 1: ", "\"ply\""}},
+        {"UnknownExtension", {{"mesh.stl", "solid\n"}}, {"mesh.stl: ", ".obj", ".ply", ".json"}},
         {"NoSuchFile", {{"none.obj", "-"}}, {"none.obj: ", "No such file"}},
     };
 }

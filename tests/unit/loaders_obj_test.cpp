@@ -221,8 +221,9 @@ TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
 }
 
 TEST_F(ObjTest, OtherExtensionsAreRefused) {
-    write("mesh.ply", kTriangleObj);
-    EXPECT_EQ(errorOf("mesh.ply"), "mesh.ply: has no extension of a scene file; expected .obj or .json");
+    write("mesh.stl", kTriangleObj);
+    EXPECT_EQ(errorOf("mesh.stl"),
+              "mesh.stl: has no extension of a scene file; expected .obj, .ply or .json");
     EXPECT_THAT(errorOf("none.obj"), StartsWith("none.obj: cannot open: No such file"));
 }
 

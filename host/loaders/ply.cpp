@@ -1,0 +1,376 @@
+#include "host/loaders/ply.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/base/printable.h"
+#include "host/loaders/ply_body.h"
+#include "host/loaders/ply_header.h"
+#include "host/loaders/rounding.h"
+#include "host/loaders/tally.h"
+#include "host/loaders/triangulate.h"
+
+namespace duolux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+
+/// Errors that do not prevent a file from being loaded.
+enum class Oddity { kShortFace, kBadFace, kUnusedVertex, kNormal, kCount };
+
+struct Description {
+    Oddity kind;
+    const char* what;
+    const char* consequence;
+};
+constexpr Description kDescriptions[] = {
+    {Oddity::kShortFace, "a face of fewer than 3 corners", "left out"},
+    {Oddity::kBadFace, "a face with a vertex that is not in the file", "left out"},
+    {Oddity::kUnusedVertex, "a vertex that is not finite or too large", "no face uses it"},
+    {Oddity::kNormal, "a normal that is 0 or not finite", "the faces at this vertex are flat"},
+};
+
+/// Loads one file.
+class PlyLoader {
+  public:
+    PlyLoader(const fs::path& path, Reading reading)
+        : path_(path),
+          strict_(reading == Reading::kStrict),
+          bytes_(readFile(path)),
+          header_(readPlyHeader(path, bytes_)),
+          body_(path_, bytes_, header_) {
+        mesh_.source = path;
+        mesh_.files.push_back(path);
+        mesh_.bytes = bytes_.size();
+    }
+
+    Mesh run() {
+        const PlyElement& vertices = required("vertex");
+        const PlyElement& faces = required("face");
+        std::size_t left = 2;  // what comes behind both is of no interest
+        for (const PlyElement& element : header_.elements) {
+            if (left == 0) break;
+            if (&element == &vertices || &element == &faces) {
+                body_.beginElement(element);
+                if (&element == &vertices) readVertices(element);
+                if (&element == &faces) readFaces(element, vertices.count);
+                --left;
+            } else {
+                body_.skipElement(element);
+            }
+        }
+        if (ends_.empty()) failWithoutFaces();
+        settlePositions();
+        triangulateFaces();
+        mesh_.materials.emplace_back();
+        mesh_.materials.back().name = kDefaultMaterialName;
+        warn();
+        return std::move(mesh_);
+    }
+
+  private:
+    const PlyElement& required(std::string_view name) const {
+        const PlyElement* const element = header_.find(name);
+        if (element == nullptr) {
+            throw InputError(path_.string(), "", fmt::format("has no element \"{}\"", name),
+                             name == "face"
+                                 ? "expected a mesh; point clouds and triangle strips are not supported"
+                                 : "expected a mesh");
+        }
+        if (element->count > kMost) {
+            throw InputError(path_.string(), fmt::format("element {}", name), "is too large",
+                             "expected fewer than 2^31 vertices and faces");
+        }
+        return *element;
+    }
+
+    /// The indices of three properties; empty unless all are there and none is a list.
+    std::optional<std::array<std::size_t, 3>> triple(const PlyElement& element,
+                                                     const std::array<std::string_view, 3>& names) {
+        std::array<std::size_t, 3> found{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto index = element.find(names[i]);
+            if (!index || element.properties[*index].isList()) return std::nullopt;
+            found[i] = *index;
+        }
+        return found;
+    }
+
+    void noteUnused(const PlyElement& element, const std::vector<bool>& used) {
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            if (!used[i])
+                unused_.push_back(
+                    fmt::format("{} of {}", shortened(element.properties[i].name), element.name));
+        }
+    }
+
+    void readVertices(const PlyElement& element) {
+        const auto position = triple(element, {"x", "y", "z"});
+        if (!position) {
+            throw InputError(path_.string(), "element vertex", "has no coordinates",
+                             "expected the properties x, y and z, which are no lists");
+        }
+        const auto normal = triple(element, {"nx", "ny", "nz"});
+        const std::size_t count = element.properties.size();
+        std::vector<bool> used(count, false);
+        // Where each property goes in `values`.
+        std::vector<std::size_t> slots(count, kSkipped);
+        const auto assign = [&](const auto& indices, std::size_t first) {
+            if (!indices) return;
+            for (std::size_t i = 0; i < 3; ++i) {
+                slots[(*indices)[i]] = first + i;
+                used[(*indices)[i]] = true;
+            }
+        };
+        assign(position, kPosition);
+        assign(normal, kNormal);
+        noteUnused(element, used);
+
+        positions_.reserve(element.count);
+        if (normal) mesh_.geometry.normals.reserve(element.count);
+        std::array<double, kSlots> values{};
+        for (std::uint64_t vertex = 0; vertex < element.count; ++vertex) {
+            body_.beginItem();
+            for (std::size_t i = 0; i < count; ++i) {
+                const PlyProperty& property = element.properties[i];
+                if (slots[i] == kSkipped) {
+                    body_.skip(property);
+                } else {
+                    values[slots[i]] = body_.value(property.type);
+                }
+            }
+            body_.endItem();
+            positions_.emplace_back(values[kPosition], values[kPosition + 1], values[kPosition + 2]);
+            if (normal) addNormal({values[kNormal], values[kNormal + 1], values[kNormal + 2]});
+        }
+    }
+
+    void addNormal(const glm::dvec3& normal) {
+        const double length = glm::length(normal);
+        const bool isGood = length > 0.0 && std::isfinite(length);
+        if (!isGood) {
+            tolerate(Oddity::kNormal, "the normal is 0 or not finite", "expected a direction");
+        }
+        mesh_.geometry.normals.push_back(isGood ? glm::vec3(normal / length) : glm::vec3(0.0f));
+    }
+
+    static std::optional<std::size_t> findCorners(const PlyElement& element) {
+        for (const char* const name : {"vertex_indices", "vertex_index"}) {
+            if (const auto found = element.find(name); found && element.properties[*found].isList())
+                return found;
+        }
+        const bool onlyOne = element.properties.size() == 1 && element.properties.front().isList();
+        return onlyOne ? std::optional<std::size_t>(0) : std::nullopt;
+    }
+
+    void readFaces(const PlyElement& element, std::uint64_t vertexCount) {
+        const auto corners = findCorners(element);
+        if (!corners) {
+            throw InputError(path_.string(), "element face", "has no corners",
+                             "expected a property such as \"list uchar int vertex_indices\"");
+        }
+        std::vector<bool> used(element.properties.size(), false);
+        used[*corners] = true;
+        noteUnused(element, used);
+        ends_.reserve(element.count);
+        corners_.reserve(3 * element.count);
+        for (std::uint64_t face = 0; face < element.count; ++face) {
+            body_.beginItem();
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                if (i == *corners) {
+                    readCorners(element.properties[i], vertexCount);
+                } else {
+                    body_.skip(element.properties[i]);
+                }
+            }
+            body_.endItem();
+        }
+    }
+
+    void readCorners(const PlyProperty& list, std::uint64_t vertexCount) {
+        const std::size_t begin = corners_.size();
+        const std::size_t length = body_.listLength(list);
+        std::optional<double> bad;
+        for (std::size_t i = 0; i < length; ++i) {
+            const double index = body_.value(list.type);
+            const bool isGood =
+                index >= 0.0 && index < static_cast<double>(vertexCount) && index == std::floor(index);
+            if (!isGood && !bad) bad = index;
+            corners_.push_back(isGood ? static_cast<std::uint32_t>(index) : 0);
+        }
+        if (corners_.size() > kMost) {
+            throw InputError(path_.string(), "element face", "is too large",
+                             "expected fewer than 2^31 corners of faces");
+        }
+        if (length >= 3 && !bad) {
+            ends_.push_back(static_cast<std::uint32_t>(corners_.size()));
+            return;
+        }
+        corners_.resize(begin);
+        if (bad) {
+            const std::string problem = fmt::format("vertex index {} is out of range", *bad);
+            const std::string remedy = vertexCount == 0 ? std::string("there are no vertices")
+                                                        : fmt::format("expected 0 to {}", vertexCount - 1);
+            if (!badFace_) badFace_ = body_.error(problem, remedy);
+            tolerate(Oddity::kBadFace, problem, remedy);
+        } else {
+            tolerate(Oddity::kShortFace, fmt::format("{} corners", length), "expected at least 3");
+        }
+    }
+
+    [[noreturn]] void failWithoutFaces() const {
+        if (badFace_) throw InputError(*badFace_);
+        throw InputError(path_.string(), "", "has no faces", "expected at least one of 3 corners or more");
+    }
+
+    /// Vertices that are not finite or too large are an error if a face uses them.
+    void settlePositions() {
+        const std::array<PolygonView, 1> polygons{{{ends_, corners_}}};
+        const std::vector<bool> used = usedVertices(positions_.size(), polygons);
+        for (std::size_t i = 0; i < positions_.size(); ++i) {
+            glm::dvec3& position = positions_[i];
+            if (std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z)) continue;
+            settleBadVertex(i, used[i]);
+            position = glm::dvec3(0.0);
+        }
+        RoundedPositions rounded = roundPositions(positions_, polygons);
+        for (std::size_t i = 0; !rounded.inRange && i < positions_.size(); ++i) {
+            glm::vec3& position = rounded.positions[i];
+            if (glm::all(glm::lessThanEqual(glm::abs(position), glm::vec3(kLargestCoordinate)))) continue;
+            settleBadVertex(i, used[i]);
+            position = glm::vec3(0.0f);
+        }
+        warnOfLoss(path_, rounded.loss, mesh_.warnings);
+        mesh_.geometry.positions = std::move(rounded.positions);
+        mesh_.origin = rounded.origin;
+    }
+
+    void settleBadVertex(std::size_t vertex, bool used) {
+        const std::string place = fmt::format("vertex {} of {}", vertex + 1, positions_.size());
+        if (used || strict_) {
+            throw InputError(path_.string(), place, "a coordinate is not finite or too large",
+                             fmt::format("expected at most {:g} in magnitude", kLargestCoordinate));
+        }
+        count(Oddity::kUnusedVertex, [&] { return place; });
+    }
+
+    void triangulateFaces() {
+        Geometry& geometry = mesh_.geometry;
+        geometry.triangles.reserve(corners_.size() - 2 * ends_.size());
+        std::vector<glm::vec3> polygon;
+        std::vector<std::array<std::uint32_t, 3>> cut;
+        std::uint32_t begin = 0;
+        for (const std::uint32_t end : ends_) {
+            cut.clear();
+            polygon.clear();
+            for (std::uint32_t i = begin; i < end; ++i)
+                polygon.push_back(geometry.positions[corners_[i]]);
+            triangulate(polygon, cut);
+            for (const auto& [a, b, c] : cut)
+                geometry.triangles.emplace_back(corners_[begin + a], corners_[begin + b],
+                                                corners_[begin + c]);
+            begin = end;
+        }
+        geometry.materials.assign(geometry.triangles.size(), 0);
+        if (!geometry.normals.empty()) setNormals();
+    }
+
+    /// A triangle is flat if one of its corners has no valid normal.
+    void setNormals() {
+        Geometry& geometry = mesh_.geometry;
+        const auto isZero = [&](std::uint32_t vertex) { return geometry.normals[vertex] == glm::vec3(0.0f); };
+        for (const glm::uvec3& triangle : geometry.triangles) {
+            const bool isFlat = isZero(triangle.x) || isZero(triangle.y) || isZero(triangle.z);
+            geometry.normalIndices.push_back(isFlat ? glm::uvec3(Geometry::kNoNormal) : triangle);
+        }
+    }
+
+    /// Counts an error in the current item, or throws it in strict reading.
+    void tolerate(Oddity oddity, std::string_view problem, std::string_view remedy) {
+        if (strict_) throw body_.error(problem, remedy);
+        count(oddity, [&] { return body_.place(); });
+    }
+
+    template <typename Place>
+    void count(Oddity oddity, const Place& place) {
+        Found& found = found_[static_cast<std::size_t>(oddity)];
+        if (found.count++ == 0) found.first = place();
+    }
+
+    void warn() {
+        const std::string file = path_.string();
+        for (const auto& [kind, what, consequence] : kDescriptions) {
+            const auto& [number, first] = found_[static_cast<std::size_t>(kind)];
+            if (number == 0) continue;
+            mesh_.warnings.push_back(fmt::format("{}: {}: {}{}: {}", file, first, what,
+                                                 number == 1 ? "" : fmt::format(" (and {} more)", number - 1),
+                                                 consequence));
+        }
+        if (const std::uint64_t number = body_.overlongItems(); number > 0) {
+            mesh_.warnings.push_back(fmt::format("{}: {} line{} more numbers than the header says: ignored",
+                                                 file, number, number == 1 ? " has" : "s have"));
+        }
+        for (const PlyElement& element : header_.elements) {
+            if (element.name != "vertex" && element.name != "face")
+                unused_.push_back(fmt::format("element {}", shortened(element.name)));
+        }
+        if (!unused_.empty()) {
+            constexpr std::size_t kShown = 8;
+            const std::size_t hidden = unused_.size() - std::min(unused_.size(), kShown);
+            unused_.resize(unused_.size() - hidden);
+            mesh_.warnings.push_back(fmt::format("{}: not supported and ignored: {}{}", file,
+                                                 fmt::join(unused_, ", "),
+                                                 hidden == 0 ? "" : fmt::format(" and {} more", hidden)));
+        }
+        if (header_.namesTexture)
+            mesh_.warnings.push_back(fmt::format("{}: textures are not supported", file));
+        if (header_.unknownLine) {
+            mesh_.warnings.push_back(fmt::format("{}: {} in the header is unknown: ignored", file,
+                                                 inQuotes(*header_.unknownLine)));
+        }
+    }
+
+    static constexpr std::size_t kPosition = 0, kNormal = 3, kSlots = 6, kSkipped = kSlots;
+
+    struct Found {
+        std::uint64_t count = 0;
+        std::string first;  ///< its place
+    };
+
+    const fs::path path_;
+    const bool strict_;
+    const std::string bytes_;
+    const PlyHeader header_;
+    PlyBody body_;
+    Mesh mesh_;
+    std::vector<glm::dvec3> positions_;
+    std::vector<std::uint32_t> ends_, corners_;  ///< see PolygonView
+    std::optional<InputError> badFace_;          ///< the first that is left out because of its vertices
+    std::array<Found, static_cast<std::size_t>(Oddity::kCount)> found_;
+    std::vector<std::string> unused_;  ///< properties and elements
+};
+
+}  // namespace
+
+Mesh loadPly(const fs::path& path, MaterialFiles& files) {
+    return PlyLoader(path, files.reading()).run();
+}
+
+}  // namespace duolux

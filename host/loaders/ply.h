@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "host/loaders/material_files.h"
+#include "host/scene/mesh.h"
+
+namespace duolux {
+
+/// Reads a PLY file: text, or binary of either byte order. Polygons are triangulated, and normals of vertices
+/// are used. All faces have the default material. `files` only says how to read. Throws InputError.
+Mesh loadPly(const std::filesystem::path& path, MaterialFiles& files);
+
+}  // namespace duolux
