@@ -68,6 +68,23 @@ glm::uvec2 parseSize(const std::string& text) {
     return {values->first, values->second};
 }
 
+FilmLayerSet parseLayers(const std::string& text) {
+    FilmLayerSet layers = 0;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string name = text.substr(begin, end - begin);
+        const auto layer = layerNamed(name);
+        if (!layer) {
+            throw UsageError(fmt::format("--aov {}: there is no layer {}; {}", text, inQuotes(name),
+                                         suggestName(name, namesOf(~FilmLayerSet{0}))));
+        }
+        layers |= *layer;
+        begin = end + 1;
+    }
+    return layers;
+}
+
 SampleRange parseSampleRange(const std::string& text) {
     const auto values = parsePair<std::uint32_t>(text, ':');
     if (!values || values->first >= values->second) {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/film/layers.h"
+
 namespace duolux {
 
 // Parsers and checks for the options of several commands. All throw UsageError.
@@ -17,6 +19,9 @@ std::optional<glm::vec2> parsePoint(const std::string& text);
 
 /// "WIDTHxHEIGHT", each from 1 to 16384.
 glm::uvec2 parseSize(const std::string& text);
+
+/// "NAME,...", names of layers of a film.
+FilmLayerSet parseLayers(const std::string& text);
 
 /// "A:B", samples [first, end) with first < end.
 struct SampleRange {

@@ -53,6 +53,7 @@ struct Overrides {
     std::optional<Sampler> sampler;
     std::optional<Integrator> integrator;
     std::optional<SampleRange> range;
+    FilmLayerSet layers = 0;
 
     /// The choices on which loading the scene depends.
     SceneChoices choices(const RenderOptions& options) const {
@@ -69,6 +70,7 @@ struct Overrides {
         settings.integrator = integrator.value_or(settings.integrator);
         settings.spp = options.spp.value_or(settings.spp);
         settings.seed = options.seed.value_or(settings.seed);
+        settings.layers = layers;
     }
 };
 
@@ -82,6 +84,7 @@ Overrides parseOverrides(const RenderOptions& options) {
         overrides.sampler = options.sampler == "sobol" ? Sampler::kSobol : Sampler::kIndependent;
     }
     if (!options.sampleRange.empty()) overrides.range = parseSampleRange(options.sampleRange);
+    if (!options.aov.empty()) overrides.layers = parseLayers(options.aov);
     if (!options.integrator.empty()) {
         overrides.integrator = options.integrator == "light" ? Integrator::kLight : Integrator::kPath;
     }
@@ -142,6 +145,20 @@ DirectLight chooseDirectLight(const RenderOptions& options, const Scene& scene) 
     }
     if (options.directLight == "auto") return DirectLight::kAuto;
     return options.directLight == "sampled" ? DirectLight::kSampled : DirectLight::kClosedForm;
+}
+
+/// Throws UsageError if layers are asked for that would not be filled or not be kept.
+void requireUseOfLayers(const RenderOptions& options, const std::vector<std::string>& outputs,
+                        const Scene& scene) {
+    if (options.aov.empty()) return;
+    if (scene.render.integrator == Integrator::kLight) {
+        throw UsageError(fmt::format(
+            "--aov {}: the light tracer traces no camera rays; expected --integrator path", options.aov));
+    }
+    if (options.checkpoint.empty() && std::none_of(outputs.begin(), outputs.end(), isExrPath)) {
+        throw UsageError(fmt::format(
+            "--aov {}: only EXR files and checkpoints hold layers; expected -o FILE.exr", options.aov));
+    }
 }
 
 /// Chooses the samples to trace: those of --sample-range, or of the checkpoint, or all.
@@ -238,6 +255,7 @@ void runRender(const RenderOptions& options) {
     checkNotRead(files, scene.files);
     requireNoOtherFile(options.checkpoint);
     overrides.applyTo(scene, options);
+    requireUseOfLayers(options, outputs, scene);
     for (const std::string& warning : scene.warnings)
         warn(warning);
     RenderControl control;

@@ -99,6 +99,13 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                     "to --spp")
         ->type_name("FILE")
         ->check(notEmpty());
+    command
+        .add_option("--aov", options.aov,
+                    fmt::format("Further layers for EXR files and the checkpoint, separated by commas; only "
+                                "with --integrator path: {}",
+                                fmt::join(namesOf(~FilmLayerSet{0}), ", ")))
+        ->type_name("NAME,...")
+        ->check(notEmpty());
     command.add_option("--exposure", options.exposure, "Stops by which a PNG is brightened (default: 0)")
         ->type_name("STOPS")
         ->check(between(-64.0, 64.0));

@@ -16,7 +16,7 @@ struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
     std::string preset, blend, size, sampler, integrator, directLight, device, report, sampleRange,
-        checkpoint, resume;
+        checkpoint, resume, aov;
     std::optional<std::uint32_t> spp, bounces, seed;
     std::optional<double> timeLimit;
     TuningOptions tuning;

@@ -48,6 +48,7 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                           {"sampler", nameOf(scene.render.sampler)},
                           {"integrator", nameOf(scene.render.integrator)},
                           {"direct_light", directLight},
+                          {"layers", namesOf(scene.render.layers)},
                           {"reflectance", describeReflectance(scene.reflectance)}};
     report["device"] = toJson(device);
     report["tuning"] = toJson(statistics.tuning);

@@ -10,7 +10,8 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <span>
+#include <string>
+#include <vector>
 
 #include "host/base/error.h"
 #include "host/film/codec.h"
@@ -20,9 +21,15 @@ namespace duolux {
 
 namespace {
 
-constexpr const char* kDisplayedNames[3] = {"R", "G", "B"};
-constexpr const char* kInvisibleNames[3] = {"invisible.R", "invisible.G", "invisible.B"};
-constexpr const char* kVisibleNames[3] = {"visible.R", "visible.G", "visible.B"};
+using ChannelNames = std::vector<std::string>;
+
+/// The channels of a layer: "normal.X" ... The layer without a name is the displayed image.
+ChannelNames channelsOf(const std::string& layer, std::string_view channels = "RGB") {
+    ChannelNames names;
+    for (const char channel : channels)
+        names.push_back((layer.empty() ? "" : layer + ".") + channel);
+    return names;
+}
 
 /// Output stream for OpenEXR. OpenEXR completes the file in a destructor and drops exceptions there, so the
 /// stream keeps the first exception.
@@ -75,20 +82,25 @@ class MemoryInput : public Imf::IStream {
     std::size_t position_ = 0;
 };
 
-/// Adds three float channels stored as glm::vec3. `origin` is the address that the pixel (0, 0) would have.
-void addSlices(Imf::FrameBuffer& frame, const char* const (&names)[3], const glm::vec3* origin,
-               std::size_t width) {
+/// Adds float channels stored one after the other for each pixel. `origin` is the address that the pixel (0,
+/// 0) would have.
+void addSlices(Imf::FrameBuffer& frame, const ChannelNames& names, const float* origin, std::size_t width) {
     // OpenEXR's slices take non-const pointers even for writing a file, which only reads the memory.
     char* base = const_cast<char*>(reinterpret_cast<const char*>(origin));
-    for (int c = 0; c < 3; ++c) {
-        frame.insert(names[c], Imf::Slice(Imf::FLOAT, base + c * sizeof(float), sizeof(glm::vec3),
-                                          width * sizeof(glm::vec3)));
-    }
+    const std::size_t pixelBytes = names.size() * sizeof(float);
+    for (std::size_t c = 0; c < names.size(); ++c)
+        frame.insert(names[c],
+                     Imf::Slice(Imf::FLOAT, base + c * sizeof(float), pixelBytes, width * pixelBytes));
 }
 
-bool hasChannels(const Imf::ChannelList& channels, const char* const (&names)[3]) {
-    return std::ranges::all_of(names,
-                               [&](const char* name) { return channels.findChannel(name) != nullptr; });
+const float* floatsOf(const glm::vec3* pixels) {
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    return reinterpret_cast<const float*>(pixels);
+}
+
+bool hasChannels(const Imf::ChannelList& channels, const ChannelNames& names) {
+    return std::ranges::all_of(
+        names, [&](const std::string& name) { return channels.findChannel(name) != nullptr; });
 }
 
 }  // namespace
@@ -98,11 +110,18 @@ void encodeExr(const ImageRows& rows, const ImageOptions& options, FileWriter& o
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [key, value] : options.metadata)
         header.insert(key, Imf::StringAttribute(value));
-    for (const auto& names : {kDisplayedNames, kInvisibleNames, kVisibleNames}) {
-        for (const char* name : std::span(names, 3))
+    const ChannelNames displayed = channelsOf(""), invisible = channelsOf("invisible"),
+                       visible = channelsOf("visible");
+    const auto declare = [&](const ChannelNames& names) {
+        for (const std::string& name : names)
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    }
+    };
+    for (const ChannelNames& names : {displayed, invisible, visible})
+        declare(names);
+    for (const LayerRows& layer : rows.layers)
+        declare(channelsOf(layer.name, layer.channels));
     RowBand band(rows, options.display);
+    std::vector<std::vector<float>> layers(rows.layers.size());  // the same rows of each
     ExrOutput output(out);
     try {
         Imf::OutputFile file(output, header);
@@ -110,9 +129,16 @@ void encodeExr(const ImageRows& rows, const ImageOptions& options, FileWriter& o
             const std::uint32_t count = band.read(y);
             const std::size_t before = std::size_t{y} * rows.width;
             Imf::FrameBuffer frame;
-            addSlices(frame, kDisplayedNames, band.displayed().data() - before, rows.width);
-            addSlices(frame, kInvisibleNames, band.invisible().data() - before, rows.width);
-            addSlices(frame, kVisibleNames, band.visible().data() - before, rows.width);
+            addSlices(frame, displayed, floatsOf(band.displayed().data() - before), rows.width);
+            addSlices(frame, invisible, floatsOf(band.invisible().data() - before), rows.width);
+            addSlices(frame, visible, floatsOf(band.visible().data() - before), rows.width);
+            for (std::size_t i = 0; i < layers.size(); ++i) {
+                const LayerRows& layer = rows.layers[i];
+                layers[i].resize(std::size_t{count} * rows.width * layer.channels.size());
+                layer.read(y, layers[i]);
+                addSlices(frame, channelsOf(layer.name, layer.channels),
+                          layers[i].data() - before * layer.channels.size(), rows.width);
+            }
             file.setFrameBuffer(frame);
             file.writePixels(static_cast<int>(count));
         }
@@ -136,10 +162,12 @@ RadianceImage decode(std::string_view bytes, const std::string& file, bool displ
         MemoryInput memory(bytes);
         Imf::InputFile input(memory);
         const Imf::ChannelList& channels = input.header().channels();
-        const bool displayed = hasChannels(channels, kDisplayedNames);
-        const bool both = hasChannels(channels, kInvisibleNames) && hasChannels(channels, kVisibleNames) &&
-                          !(displayedOnly && displayed);
-        if (!both && !displayed) {
+        const ChannelNames displayed = channelsOf(""), invisible = channelsOf("invisible"),
+                           visible = channelsOf("visible");
+        const bool hasDisplayed = hasChannels(channels, displayed);
+        const bool both = hasChannels(channels, invisible) && hasChannels(channels, visible) &&
+                          !(displayedOnly && hasDisplayed);
+        if (!both && !hasDisplayed) {
             throw InputError(file, "", "has no colour channels",
                              "expected R, G, B, or invisible.R/G/B and visible.R/G/B");
         }
@@ -151,8 +179,8 @@ RadianceImage decode(std::string_view bytes, const std::string& file, bool displ
             makeImage(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
         const std::ptrdiff_t shift = window.min.x + window.min.y * static_cast<std::ptrdiff_t>(width);
         Imf::FrameBuffer frame;
-        if (both) addSlices(frame, kInvisibleNames, image.invisible.data() - shift, image.width);
-        addSlices(frame, both ? kVisibleNames : kDisplayedNames, image.visible.data() - shift, image.width);
+        if (both) addSlices(frame, invisible, floatsOf(image.invisible.data() - shift), image.width);
+        addSlices(frame, both ? visible : displayed, floatsOf(image.visible.data() - shift), image.width);
         input.setFrameBuffer(frame);
         input.readPixels(window.min.y, window.max.y);
         return image;

@@ -1,5 +1,6 @@
 #include "host/film/film.h"
 
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -10,15 +11,18 @@
 
 namespace duolux {
 
-Film::Film(std::uint32_t width, std::uint32_t height, float quantum)
+Film::Film(std::uint32_t width, std::uint32_t height, float quantum, FilmLayerSet layers)
     : width_(width),
       height_(height),
       quantum_(quantum),
       sums_(std::size_t{width} * height),
-      samples_(std::size_t{width} * height) {}
+      samples_(sums_.size()),
+      layers_(layers),
+      layerSums_(sums_.size() * channelsOf(layers)) {}
 
 Film::Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples,
-           Sums lightSums, std::uint64_t lightPaths, Carries carries)
+           Sums lightSums, std::uint64_t lightPaths, Carries carries, FilmLayerSet layers,
+           LayerSums layerSums)
     : width_(width),
       height_(height),
       quantum_(quantum),
@@ -26,9 +30,12 @@ Film::Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, 
       samples_(std::move(samples)),
       lightSums_(std::move(lightSums)),
       lightPaths_(lightPaths),
-      carries_(std::move(carries)) {
+      carries_(std::move(carries)),
+      layers_(layers),
+      layerSums_(std::move(layerSums)) {
     assert(sums_.size() == std::size_t{width} * height && samples_.size() == sums_.size());
     assert(lightSums_.empty() || lightSums_.size() == sums_.size());
+    assert(layerSums_.size() == sums_.size() * channelsOf(layers));
 }
 
 void Film::setQuantum(float quantum) {
@@ -80,7 +87,7 @@ void Film::refine(int shift) {
 }
 
 void Film::add(const Film& other) {
-    assert(other.sums_.size() == sums_.size());
+    assert(other.sums_.size() == sums_.size() && other.layers_ == layers_);
     const int shift = std::ilogb(quantum_) - std::ilogb(other.quantum_);
     if (shift > 0) refine(shift);
     if (shift < 0) {
@@ -93,6 +100,8 @@ void Film::add(const Film& other) {
         addTo(sums_[i], other.sums_[i], 6 * i);
         samples_[i] += other.samples_[i];
     }
+    for (std::size_t i = 0; i < layerSums_.size(); ++i)
+        layerSums_[i] += other.layerSums_[i];
     if (!other.lightSums_.empty() && lightSums_.empty()) lightSums_ = Sums(sums_.size());
     for (std::size_t i = 0; i < other.lightSums_.size(); ++i)
         addTo(lightSums_[i], other.lightSums_[i], firstLightSum() + 6 * i);
@@ -102,11 +111,16 @@ void Film::add(const Film& other) {
     overflowed_ = overflowed_ || other.overflowed_;
 }
 
-void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples) {
+void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples,
+               std::span<const std::int64_t> layerSums) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         addTo(sums_[pixels[i]], sums[i], 6 * std::uint64_t{pixels[i]});
         samples_[pixels[i]] += samples;
     }
+    const std::size_t channels = channelsOf(layers_);
+    assert(layerSums.size() == pixels.size() * channels);
+    for (std::size_t i = 0; i < layerSums.size(); ++i)
+        layerSums_[pixels[i / channels] * channels + i % channels] += layerSums[i];
 }
 
 void Film::addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums) {
@@ -170,10 +184,33 @@ bool Film::overflowed() const {
 }
 
 ImageRows Film::rows() const {
-    return {width_, height_,
-            [this](std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible) {
-                readRows(firstRow, invisible, visible);
-            }};
+    ImageRows rows{width_,
+                   height_,
+                   [this](std::uint32_t firstRow, std::span<glm::vec3> invisible,
+                          std::span<glm::vec3> visible) { readRows(firstRow, invisible, visible); },
+                   {}};
+    for (const FilmLayer* layer : layersOf(layers_)) {
+        rows.layers.push_back({std::string(layer->name), std::string(layer->channels),
+                               [this, layer](std::uint32_t firstRow, std::span<float> values) {
+                                   readLayer(*layer, firstRow, values);
+                               }});
+    }
+    return rows;
+}
+
+void Film::readLayer(const FilmLayer& layer, std::uint32_t firstRow, std::span<float> values) const {
+    std::size_t first = 0;  // the layer's first channel
+    for (const FilmLayer* other : layersOf(layers_)) {
+        if (other == &layer) break;
+        first += other->channels.size();
+    }
+    const std::size_t all = channelsOf(layers_), channels = layer.channels.size();
+    const std::size_t firstPixel = std::size_t{firstRow} * width_;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t pixel = firstPixel + i / channels;
+        const auto sum = static_cast<double>(layerSums_[pixel * all + first + i % channels]);
+        values[i] = samples_[pixel] > 0 ? static_cast<float>(sum * layer.quantum() / samples_[pixel]) : 0.0f;
+    }
 }
 
 void Film::readRows(std::uint32_t firstRow, std::span<glm::vec3> invisible,
@@ -193,6 +230,13 @@ RadianceImage Film::resolve() const {
                         std::vector<glm::vec3>(sums_.size())};
     readRows(0, image.invisible, image.visible);
     return image;
+}
+
+std::vector<float> Film::resolve(FilmLayerSet layer) const {
+    assert(std::has_single_bit(layer) && (layers_ & layer) != 0);
+    std::vector<float> values(sums_.size() * channelsOf(layer));
+    readLayer(*layersOf(layer).front(), 0, values);
+    return values;
 }
 
 }  // namespace duolux

@@ -8,12 +8,13 @@
 
 #include "host/base/zeroed_memory.h"
 #include "host/film/image.h"
+#include "host/film/layers.h"
 
 namespace duolux {
 
 /// Accumulates radiance exactly: every sample is rounded once to a multiple of `quantum` (on the device), and
 /// sums are integers. Integer addition is associative, so the image is bitwise identical however the work is
-/// split.
+/// split. The optional layers are accumulated in the same way, each in its own quantum.
 class Film {
   public:
     /// Sums of one pixel in quanta: their low 64 bits, two's complement.
@@ -23,22 +24,24 @@ class Film {
     };
     using Sums = ZeroedVector<PixelSum>;
     using Samples = ZeroedVector<std::uint32_t>;
+    using LayerSums = ZeroedVector<std::int64_t>;
     /// The multiples of 2^64 of the few sums that exceed 64 bits, by the index of the sum: 6 pixel + channel
     /// (+ 3 for the visible component). The sums of light paths follow all others.
     using Carries = std::map<std::uint64_t, std::int64_t>;
 
     /// `quantum`: the radiance of one unit, a power of two > 0.
-    Film(std::uint32_t width, std::uint32_t height, float quantum);
+    Film(std::uint32_t width, std::uint32_t height, float quantum, FilmLayerSet layers = 0);
 
     /// Creates a film from the values of another film's accessors; `lightSums` may be empty. The sizes must
     /// match.
     Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples, Sums lightSums,
-         std::uint64_t lightPaths, Carries carries);
+         std::uint64_t lightPaths, Carries carries, FilmLayerSet layers = 0, LayerSums layerSums = {});
 
     /// Must be called before anything is added.
     void setQuantum(float quantum);
 
-    /// Adds all sums of a film of the same size. If the quanta differ, the smaller one is kept.
+    /// Adds all sums of a film of the same size with the same layers. If the quanta differ, the smaller one
+    /// is kept.
     void add(const Film& other);
 
     std::uint32_t width() const { return width_; }
@@ -46,7 +49,9 @@ class Film {
     float quantum() const { return quantum_; }
 
     /// Adds sums of `samples` samples each to the pixels listed (indices row-major from the top left).
-    void add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples);
+    /// `layerSums`: as layerSums(), of these pixels.
+    void add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples,
+             std::span<const std::int64_t> layerSums = {});
 
     /// Adds the contributions of light paths to the pixels from firstPixel on. The sums are >= 0; a sum < 0
     /// has exceeded 63 bits, counts as the largest value, and sets overflowed(). These sums are kept
@@ -69,6 +74,10 @@ class Film {
     std::uint64_t lightPaths() const { return lightPaths_; }
     std::span<const PixelSum> lightSums() const { return lightSums_; }  ///< empty without light paths
     const Carries& carries() const { return carries_; }
+    FilmLayerSet layers() const { return layers_; }
+    /// Sums over the samples of each pixel in the quanta of the layers: all channels of one layer after the
+    /// other, channelsOf(layers()) numbers per pixel.
+    std::span<const std::int64_t> layerSums() const { return layerSums_; }
 
     /// Mean radiance per pixel, from samples and from light paths; black where there are neither.
     /// The film must outlive the rows.
@@ -77,8 +86,12 @@ class Film {
     /// rows() as an image.
     RadianceImage resolve() const;
 
+    /// The means of one of the layers, all channels of one pixel after the other; 0 without samples.
+    std::vector<float> resolve(FilmLayerSet layer) const;
+
   private:
     void readRows(std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible) const;
+    void readLayer(const FilmLayer& layer, std::uint32_t firstRow, std::span<float> values) const;
     void addTo(PixelSum& total, const PixelSum& term, std::uint64_t firstSum);
     void carry(std::uint64_t sum, std::int64_t count);
     /// Multiplies all sums by 2^shift and divides the quantum by 2^shift.
@@ -95,6 +108,8 @@ class Film {
     Sums lightSums_;
     std::uint64_t lightPaths_ = 0;
     Carries carries_;
+    FilmLayerSet layers_;
+    LayerSums layerSums_;
 };
 
 }  // namespace duolux

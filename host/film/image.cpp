@@ -87,7 +87,12 @@ bool isImagePath(const std::filesystem::path& path) {
 
 bool isPngPath(const std::filesystem::path& path) {
     const Format* const format = formatOf(path);
-    return format != nullptr && std::string_view(format->extension) == ".png";
+    return format != nullptr && format->encode == encodePng;
+}
+
+bool isExrPath(const std::filesystem::path& path) {
+    const Format* const format = formatOf(path);
+    return format != nullptr && format->encode == encodeExr;
 }
 
 ImageRows rowsOf(const RadianceImage& image) {
@@ -99,7 +104,7 @@ ImageRows rowsOf(const RadianceImage& image) {
         std::ranges::copy(std::span(image.invisible).subspan(first, invisible.size()), invisible.begin());
         std::ranges::copy(std::span(image.visible).subspan(first, visible.size()), visible.begin());
     };
-    return {image.width, image.height, read};
+    return {image.width, image.height, read, {}};
 }
 
 void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options) {

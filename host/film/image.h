@@ -20,12 +20,20 @@ struct RadianceImage {
     std::vector<glm::vec3> displayed(glm::vec2 d) const;
 };
 
+/// A further layer of an image: a few floats per pixel, with a letter for each.
+struct LayerRows {
+    std::string name, channels;
+    /// Fills the span with whole rows from `firstRow` on, all channels of one pixel after the other.
+    std::function<void(std::uint32_t firstRow, std::span<float> values)> read;
+};
+
 /// An image that is computed while it is written, so that it need not be in memory as a whole.
 struct ImageRows {
     std::uint32_t width = 0, height = 0;
     /// Fills both spans with whole rows from `firstRow` on; the size of the spans determines their number.
     std::function<void(std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible)>
         read;
+    std::vector<LayerRows> layers;  ///< only EXR files hold them
 };
 
 /// The rows of an image, which must outlive them.
@@ -43,7 +51,11 @@ bool isImagePath(const std::filesystem::path& path);
 /// True if the extension is that of a format that applies the exposure and clamps to [0, 1]: .png.
 bool isPngPath(const std::filesystem::path& path);
 
-/// Writes by extension, atomically. EXR: float R G B (displayed), invisible.R/G/B, visible.R/G/B.
+/// True if the extension is that of the format that holds layers: .exr.
+bool isExrPath(const std::filesystem::path& path);
+
+/// Writes by extension, atomically. EXR: float R G B (displayed), invisible.R/G/B, visible.R/G/B, and the
+/// layers as NAME.CHANNEL.
 /// PNG: 8 bit sRGB after exposure, clamped. PFM: float RGB (displayed). Throws MachineError.
 void writeImage(const std::filesystem::path& path, const ImageRows& rows, const ImageOptions& options);
 void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options);

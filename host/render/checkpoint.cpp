@@ -18,10 +18,11 @@ namespace duolux {
 
 namespace {
 
-// The file: kMagic, the length of the header as uint32, the header (JSON), samples per pixel (uint32), sums
-// of pixels, sums of light paths if there are any (six int64 a pixel each), and a checksum of all before it
-// (uint64). Little-endian, as all hosts are.
-constexpr char kMagic[9] = "DUOLUXC3";
+// The file: kMagic, whose last letter is the version; the length of the header as uint32; the header (JSON);
+// samples per pixel (uint32); sums of pixels, and sums of light paths if there are any (six int64 per pixel
+// each); sums of the layers (an int64 per pixel and channel); and a checksum of everything before it
+// (uint64). All numbers are little-endian, as on all hosts.
+constexpr char kMagic[9] = "DUOLUXC4";
 constexpr std::size_t kMagicBytes = 8;
 
 template <typename T>
@@ -29,13 +30,22 @@ std::string_view bytesOf(std::span<const T> items) {
     return {reinterpret_cast<const char*>(items.data()), items.size_bytes()};
 }
 
-/// Takes items off the front of the bytes.
+/// Removes items from the front of the bytes and returns them.
 template <typename Items>
 Items take(std::string_view& bytes, std::size_t count) {
     Items items(count);
     std::memcpy(items.data(), bytes.data(), count * sizeof items[0]);
     bytes.remove_prefix(count * sizeof items[0]);
     return items;
+}
+
+/// Throws an InputError that names the file.
+using Fail = std::function<void(const std::string& problem)>;
+
+constexpr const char* kPartsDoNotFit = "is damaged: its parts do not fit";
+
+std::string listOf(FilmLayerSet layers) {
+    return layers == 0 ? "none" : fmt::format("{}", fmt::join(namesOf(layers), ","));
 }
 
 const char* nameOf(DirectLight directLight) {
@@ -63,10 +73,11 @@ std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderSta
                       {"light_paths", film.lightPaths()},
                       {"light_sums", !film.lightSums().empty()},
                       {"carries", film.carries()},
+                      {"layers", namesOf(film.layers())},
                       {"overflowed", statistics.filmOverflowed || film.overflowed()},
                       {"last_bounce", statistics.lastBounceRadiance},
                       {"previous_bounce", statistics.previousBounceRadiance}};
-    // A path may be no UTF-8.
+    // Paths need not be UTF-8.
     return header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -94,12 +105,25 @@ FilmOrigin originFrom(const nlohmann::json& header) {
     return origin;
 }
 
-Checkpoint parse(std::string_view bytes, const std::function<void()>& fail) {
+/// The layers with these names.
+FilmLayerSet layersNamed(const nlohmann::json& names, const Fail& fail) {
+    FilmLayerSet layers = 0;
+    for (const auto& name : names) {
+        const auto layer = layerNamed(name.get<std::string>());
+        if (!layer)
+            fail(fmt::format("has a layer '{}', which this version does not know", name.get<std::string>()));
+        layers |= *layer;
+    }
+    if (names != namesOf(layers)) fail(kPartsDoNotFit);  // duplicates, or another order
+    return layers;
+}
+
+Checkpoint parse(std::string_view bytes, const Fail& fail) {
     std::uint32_t headerBytes = 0;
     std::memcpy(&headerBytes, bytes.data() + kMagicBytes, sizeof headerBytes);
     bytes.remove_prefix(kMagicBytes + sizeof headerBytes);
     bytes.remove_suffix(sizeof(std::uint64_t));
-    if (headerBytes > bytes.size()) fail();
+    if (headerBytes > bytes.size()) fail(kPartsDoNotFit);
     const nlohmann::json header = nlohmann::json::parse(bytes.substr(0, headerBytes));
     bytes.remove_prefix(headerBytes);
     FilmOrigin origin = originFrom(header);
@@ -107,14 +131,20 @@ Checkpoint parse(std::string_view bytes, const std::function<void()>& fail) {
     const auto& [width, height] = std::pair(origin.settings.width, origin.settings.height);
     const std::size_t pixels = std::size_t{width} * height;
     const bool light = film.at("light_sums").get<bool>();
-    if (bytes.size() != pixels * (sizeof(std::uint32_t) + (light ? 2 : 1) * sizeof(Film::PixelSum))) fail();
+    origin.settings.layers = layersNamed(film.at("layers"), fail);
+    const std::size_t channels = channelsOf(origin.settings.layers);
+    if (bytes.size() != pixels * (sizeof(std::uint32_t) + (light ? 2 : 1) * sizeof(Film::PixelSum) +
+                                  channels * sizeof(std::int64_t)))
+        fail(kPartsDoNotFit);
     auto samples = take<Film::Samples>(bytes, pixels);
     auto sums = take<Film::Sums>(bytes, pixels);
     auto lightSums = light ? take<Film::Sums>(bytes, pixels) : Film::Sums();
+    auto layerSums = take<Film::LayerSums>(bytes, pixels * channels);
+    const FilmLayerSet layers = origin.settings.layers;
     return {std::move(origin),
             {Film(width, height, film.at("quantum").get<float>(), std::move(sums), std::move(samples),
                   std::move(lightSums), film.at("light_paths").get<std::uint64_t>(),
-                  film.at("carries").get<Film::Carries>()),
+                  film.at("carries").get<Film::Carries>(), layers, std::move(layerSums)),
              film.at("last_bounce").get<double>(), film.at("previous_bounce").get<double>(),
              film.at("overflowed").get<bool>()}};
 }
@@ -140,7 +170,7 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
         for (const std::string_view part :
              {std::string_view(kMagic, kMagicBytes), bytesOf(std::span(&headerBytes, 1)),
               std::string_view(header), bytesOf(film.samples()), bytesOf(film.sums()),
-              bytesOf(film.lightSums())}) {
+              bytesOf(film.lightSums()), bytesOf(film.layerSums())}) {
             checksum.add(part);
             file.write(part);
         }
@@ -153,7 +183,7 @@ namespace {
 
 Checkpoint read(const std::filesystem::path& path) {
     const std::string bytes = readFile(path);
-    const auto fail = [&](const char* problem) {
+    const Fail fail = [&](const std::string& problem) {
         throw InputError(path.string(), "", problem, "expected a file that --checkpoint has written");
     };
     std::uint64_t sum = 0;
@@ -168,7 +198,7 @@ Checkpoint read(const std::filesystem::path& path) {
     checksum.add(content);
     if (sum != checksum.digest()) fail("is damaged or incomplete: its checksum is wrong");
     try {
-        return parse(bytes, [&] { fail("is damaged: its parts do not fit"); });
+        return parse(bytes, fail);
     } catch (const nlohmann::json::exception&) {
         fail("is damaged: its header cannot be read");
         throw;
@@ -209,6 +239,7 @@ void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& orig
     require("bounces", a.bounces, b.bounces);
     require("seed", a.seed, b.seed);
     require("sampler", std::string(nameOf(a.sampler)), std::string(nameOf(b.sampler)));
+    require("layers", listOf(a.layers), listOf(b.layers));
     require("direct light", std::string(nameOf(origin.directLight)), std::string(nameOf(wanted.directLight)));
 }
 

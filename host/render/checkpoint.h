@@ -7,41 +7,43 @@
 
 namespace duolux {
 
-/// What a film depends on: films with the same of all but the range of samples can be added.
+/// Everything that a film depends on. Films whose origins differ only in the range of samples can be added.
 struct FilmOrigin {
-    std::string sceneFile;  ///< noted for people; what counts is the hash
+    std::string sceneFile;  ///< for information; not compared
     std::string sceneHash;
-    std::string reflectance;  ///< described; the hash covers it
+    std::string reflectance;  ///< a description; the hash covers it
     RenderSettings settings;
-    DirectLight directLight = DirectLight::kSampled;  ///< as it was found; kPath only
+    DirectLight directLight = DirectLight::kSampled;  ///< the method used; kPath only
     glm::vec2 display{0.0f, 1.0f};                    ///< the hash covers it
-    std::uint32_t firstSample = 0;                    ///< the range was [firstSample, settings.spp)
+    std::uint32_t firstSample = 0;                    ///< the range is [firstSample, settings.spp)
 };
 
-/// A render as it stands, exactly: another can go on from it, or add others to it.
+/// The exact state of a render. Another render can resume from it, and films of other checkpoints can be
+/// added to it.
 struct Checkpoint {
     FilmOrigin origin;
     RenderState state;
 };
 
-/// `directLightInClosedForm`: as RenderStatistics tells.
+/// `directLightInClosedForm`: see RenderStatistics.
 FilmOrigin originOf(const Scene& scene, std::uint32_t firstSample, bool directLightInClosedForm);
 
-/// Writes it so that a reader sees the old file or the complete new one. Throws MachineError.
+/// Replaces the file atomically: a reader sees the old file or the complete new one. Throws MachineError.
 void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin, const Film& film,
                      const RenderStatistics& statistics);
 
-/// The file begins as a checkpoint does, of any version.
+/// Whether the file begins like a checkpoint of any version.
 bool isCheckpoint(const std::filesystem::path& path);
 
-/// Throws InputError if the file cannot be read, is no checkpoint, is of another version or damaged.
+/// Throws InputError if the file cannot be read, is not a checkpoint, has another version, or is damaged.
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 
-/// Samples of a pixel, or light paths per pixel, that a film holds, the most of any pixel.
+/// The largest number of samples of any pixel of a film, or the number of light paths per pixel, rounded up.
 std::uint32_t samplesTaken(const Film& film);
 
-/// Throws InputError naming `file` if what was rendered there is not the same as `wanted`, but for the range
-/// of samples, which `wantedFrom` ("this render", another checkpoint) has.
+/// Throws InputError naming `file` if `origin`, read from it, differs from `wanted` in anything but the range
+/// of samples. `wantedFrom` says in the message whose origin `wanted` is: "this render" or another
+/// checkpoint.
 void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& origin, const FilmOrigin& wanted,
                        const std::string& wantedFrom);
 

@@ -16,13 +16,15 @@ std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Sce
     std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene);
     constants.push_back({shared::kSpecDirectLight, directLight});
     constants.push_back({shared::kSpecHasEmitters, !deviceScene.emitters.empty()});
+    constants.push_back({shared::kSpecFilmLayers, scene.render.layers});
     return constants;
 }
 
 std::vector<Binding> pathBindings(std::vector<Binding> bindings, const Buffer& pixels, const Buffer& results,
-                                  const Teams& teams) {
+                                  const Buffer& layerResults, const Teams& teams) {
     bindings.push_back({shared::kBindingPixels, &pixels});
     bindings.push_back({shared::kBindingResults, &results});
+    bindings.push_back({shared::kBindingLayers, &layerResults});
     bindings.push_back({shared::kBindingTeams, &teams.progress()});
     return bindings;
 }
@@ -57,19 +59,25 @@ PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, con
       maxSlots_(maxSlots),
       lookSlots_(std::min(scene.render.width, 64u) * std::min(scene.render.height, 64u)),
       pixels_(pixels),
+      layerChannels_(channelsOf(scene.render.layers)),
       teams_(device, deviceScene.tuning, maxSlots),
       params_(uploadParams(device, deviceScene, scene)),
       pixelOrder_(uploadPixels(device, pixels, lookPixels(scene.render.width, scene.render.height))),
       results_(Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxSlots}, "results")),
+      // Without layers, a few bytes that are bound but not used.
+      layerResults_(Buffer::readback(
+          device, std::max(2 * sizeof(std::int64_t) * maxSlots * layerChannels_, sizeof(std::int64_t)),
+          "layers")),
       kernel_(device, "path",
               variantFor(deviceScene.tuning.layout, spirv::kPathKernelTexel, spirv::kPathKernelStorage,
                          spirv::kPathKernelRayQuery),
-              pathBindings(sceneBindings(deviceScene, params_), pixelOrder_, results_, teams_),
+              pathBindings(sceneBindings(deviceScene, params_), pixelOrder_, results_, layerResults_, teams_),
               specialize(deviceScene, scene, closedForm), sizeof(shared::DispatchParams)),
       commands_{CommandSlot(device), CommandSlot(device)} {}
 
 std::uint64_t PathKernel::deviceBytes() const {
-    return params_.allocated() + pixelOrder_.allocated() + results_.allocated() + teams_.deviceBytes();
+    return params_.allocated() + pixelOrder_.allocated() + results_.allocated() + layerResults_.allocated() +
+           teams_.deviceBytes();
 }
 
 void PathKernel::submit(unsigned place, const WorkRange& range, float quantum) {
@@ -118,7 +126,14 @@ PathKernel::Totals PathKernel::read(unsigned place) {
 PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
     const Totals totals = read(place);
     const WorkRange& range = submitted_[place].range;
-    film.add(pixels_.subspan(range.firstSlot, range.slots), sums_, range.samples);
+    layerResults_.invalidate();
+    const std::size_t count = std::size_t{range.slots} * layerChannels_;
+    const auto* words = reinterpret_cast<const std::uint32_t*>(layerResults_.mapped()) +
+                        2 * std::size_t{place} * maxSlots_ * layerChannels_;
+    layerSums_.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+        layerSums_[i] = signed64(words[2 * i], words[2 * i + 1]);
+    film.add(pixels_.subspan(range.firstSlot, range.slots), sums_, range.samples, layerSums_);
     return totals;
 }
 

@@ -81,9 +81,12 @@ class PathKernel {
 
     std::uint32_t laneSamples_, maxSlots_, lookSlots_;
     std::span<const std::uint32_t> pixels_;
-    std::vector<Film::PixelSum> sums_;  // of a dispatch
+    // Of a dispatch.
+    std::vector<Film::PixelSum> sums_;
+    std::vector<std::int64_t> layerSums_;
+    std::uint32_t layerChannels_;
     Teams teams_;
-    Buffer params_, pixelOrder_, results_;
+    Buffer params_, pixelOrder_, results_, layerResults_;
     Kernel kernel_;
     std::array<CommandSlot, 2> commands_;
     std::array<Submitted, 2> submitted_{};

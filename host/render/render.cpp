@@ -105,10 +105,11 @@ namespace {
 /// The film of a render; the integrator sets its quantum.
 Film makeFilm(const RenderSettings& settings) {
     try {
-        return Film(settings.width, settings.height, 1.0f);
+        return Film(settings.width, settings.height, 1.0f, settings.layers);
     } catch (const std::bad_alloc&) {
         const std::uint64_t bytes = std::uint64_t{settings.width} * settings.height *
-                                    (sizeof(Film::PixelSum) + sizeof(std::uint32_t));
+                                    (sizeof(Film::PixelSum) + sizeof(std::uint32_t) +
+                                     channelsOf(settings.layers) * sizeof(std::int64_t));
         throw outOfMemory(
             fmt::format("a film of {}x{} pixels takes {} MiB", settings.width, settings.height, bytes >> 20),
             "expected a smaller size, or more memory");
@@ -136,10 +137,16 @@ void trace(RenderContext& context) {
 
 RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScene& deviceScene,
                             const RenderControl& control) {
+    if (scene.render.layers != 0 && scene.render.integrator == Integrator::kLight) {
+        throw UsageError(
+            fmt::format("{}: the light tracer traces no camera rays, from which layers are filled",
+                        scene.source.string()));
+    }
     RenderContext context{device, scene, control, deviceScene, makeFilm(scene.render), {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;
         assert(state.film.width() == scene.render.width && state.film.height() == scene.render.height);
+        assert(state.film.layers() == scene.render.layers);
         context.film = state.film;
         context.samplesResumed = state.film.totalSamples() + state.film.lightPaths();
         context.lastBounce = state.lastBounceRadiance * static_cast<double>(context.samplesResumed);

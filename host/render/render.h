@@ -119,7 +119,8 @@ class RenderFailure : public MachineError {
 
 /// Renders the scene with its integrator. The film includes the resumed samples. Identical scene, settings,
 /// seed and device give a bitwise identical image. Throws UsageError if direct light in closed form is
-/// requested but does not apply, or if the device does not support the requested tuning. Throws MachineError
+/// requested but does not apply, if the light tracer is asked for layers, or if the device does not support
+/// the requested tuning. Throws MachineError
 /// with the stage and the driver if the device fails, or RenderFailure once there are samples.
 RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
 

@@ -57,6 +57,7 @@ struct RenderSettings {
     std::uint32_t seed = 1;
     Sampler sampler = Sampler::kSobol;
     Integrator integrator = Integrator::kPath;
+    std::uint32_t layers = 0;  ///< optional layers of the film, a FilmLayerSet; kPath only
 };
 
 /// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera

@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shaders/kernels/film_layers.glsl"
 #include "shaders/kernels/scene.glsl"
 #include "shaders/lib/polygon_light.glsl"
 #include "shaders/lib/slot_sums.glsl"
@@ -214,6 +215,8 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     float cosine = dot(normal, path.direction);
     bool front = cosine < 0.0;
     LightMatrix w = importanceOf(path);
+    if (kLayerNormal && path.scatterings + path.crossings == 0u)
+        layers.normal = surfacePoint(tri, ray.triangle, ray.barycentric, normal, path.direction, kSmoothNormals).shadingNormal;
 
     float pdfOfLight = pdfAreaToSolidAngle(material.lightPdfArea, ray.t * ray.t, cosine);
     float misWeight = path.scatterings > 0u ? balanceHeuristic(path.bsdfPdf, pdfOfLight) : 1.0;
@@ -284,6 +287,7 @@ void main() {
     uint sampleIndex = dispatch.firstSample;
     uint endSample = dispatch.firstSample + dispatch.sampleCount;
     SlotSums sums = emptySums();
+    emptyLayers();
     Gathered gathered = nothingGathered();
     Vertex vertex;
     vertex.weightSum = 0.0;
@@ -324,6 +328,7 @@ void main() {
                 if (path.ended && !shadow.pending) {
                     addSample(sums, gathered, dispatch.inverseQuantum,
                               filmRounding(pixel, sampleIndex, kDimensionPixel, params.seed));
+                    addLayers();
                     gathered = nothingGathered();
                     sampleIndex += 1u;
                     path = cameraPath(pixel, filmSample(pixel, sampleIndex));
@@ -348,11 +353,13 @@ void main() {
 
         if (sampleIndex == endSample) {
             results[dispatch.firstResult + teamBegin + taken] = slotResult(sums);
+            storeLayers(dispatch.firstResult + teamBegin + taken);
             atomicAdd(teams[progress].finished, 1u);
             taken = atomicAdd(teams[progress].taken, 1u);
             pixel = pixelOfSlot(teamBegin + min(taken, teamSlots - 1u));
             sampleIndex = dispatch.firstSample;
             sums = emptySums();
+            emptyLayers();
             path = cameraPath(pixel, filmSample(pixel, sampleIndex));
             ray = traversalStart(0u, path.origin, path.direction, 0.0, kNoTriangle, kInfinity, false);
             ray.nodesLeft = taken < teamSlots;

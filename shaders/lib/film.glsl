@@ -63,4 +63,10 @@ FilmSum filmAccumulate(FilmSum sum, vec3 radiance, float inverseQuantum, vec3 u)
                    filmAdd(sum.b, filmQuantise(radiance.b, inverseQuantum, u.b)));
 }
 
+// The same for values of either sign, rounded to nearest.
+FilmSum filmAccumulateSigned(FilmSum sum, vec3 value, float inverseQuantum) {
+    return FilmSum(filmAddSigned(sum.r, value.x, inverseQuantum), filmAddSigned(sum.g, value.y, inverseQuantum),
+                   filmAddSigned(sum.b, value.z, inverseQuantum));
+}
+
 #endif

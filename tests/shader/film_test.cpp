@@ -225,6 +225,24 @@ TEST(FilmAccumulate, AddsEveryChannel) {
     }
 }
 
+TEST(FilmAccumulateSigned, AddsEveryChannelToTheNearest) {
+    const std::vector<float> in = values();
+    std::vector<FilmSum> sums;
+    std::vector<glm::vec3> terms;
+    std::mt19937_64 engine(5);
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        sums.push_back({words(engine()), words(engine()), words(engine())});
+        terms.emplace_back(in[i], -in[(i + 1) % in.size()], in[(i + 2) % in.size()]);
+    }
+    const auto out = film().call<FilmSum>("filmAccumulateSigned", sums, terms, 0.25f);
+    Census census("filmAccumulateSigned");
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        census.compare(i, out[i].r, words(wide(sums[i].r) + quanta(terms[i].x, 0.25f, 0.5f)));
+        census.compare(i, out[i].g, words(wide(sums[i].g) - quanta(-terms[i].y, 0.25f, 0.5f)));
+        census.compare(i, out[i].b, words(wide(sums[i].b) + quanta(terms[i].z, 0.25f, 0.5f)));
+    }
+}
+
 // Quanta are powers of two, so that not even the product rounds: the device is exact, whatever computes.
 TEST(FilmOracles, Integers) {
     const Budget exact{0, 0};
@@ -248,6 +266,7 @@ TEST(FilmOracles, Integers) {
     }
     EXPECT_ORACLES(film(), filmAddSigned, exact, sums, in, inverses);
     EXPECT_ORACLES(film(), filmAccumulate, exact, filmSums, radiances, inverses, u);
+    EXPECT_ORACLES(film(), filmAccumulateSigned, exact, filmSums, radiances, inverses);
     EXPECT_EQ(numbers(film().call<FilmSum>("filmZero")[0]), numbers(mirror::single::filmZero()));
 }
 

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/hash.h"
 #include "host/base/temporary_folder.h"
 #include "host/render/checkpoint.h"
 
@@ -17,9 +18,10 @@ namespace {
 using testing::HasSubstr;
 
 constexpr std::uint32_t kWidth = 5, kHeight = 3;
+constexpr FilmLayerSet kAllLayers = (FilmLayerSet{1} << kFilmLayers.size()) - 1;
 
 /// A film in which every number is different and uses its high bits.
-Film someFilm(bool light) {
+Film someFilm(bool light, FilmLayerSet layers = 0) {
     Film::Sums sums(kWidth * kHeight), lightSums(light ? kWidth * kHeight : 0);
     Film::Samples samples(kWidth * kHeight);
     std::int64_t next = 0x0123456789abcdef;
@@ -33,6 +35,9 @@ Film someFilm(bool light) {
             lightSums[i].visible[c] = next += 0x1111;
         }
     }
+    Film::LayerSums layerSums(samples.size() * channelsOf(layers));
+    for (std::size_t i = 0; i < layerSums.size(); ++i)
+        layerSums[i] = i % 2 == 0 ? next += 0x1111 : -(next += 0x1111);
     return {kWidth,
             kHeight,
             0x1p-29f,
@@ -40,7 +45,9 @@ Film someFilm(bool light) {
             samples,
             lightSums,
             light ? 0x123456789abull : 0ull,
-            {{3, 7}, {50, -1}}};
+            {{3, 7}, {50, -1}},
+            layers,
+            layerSums};
 }
 
 FilmOrigin someOrigin() {
@@ -87,9 +94,11 @@ class CheckpointTest : public testing::Test {
 };
 
 TEST_F(CheckpointTest, KeepsEverything) {
-    for (const bool light : {false, true}) {
-        const Film film = someFilm(light);
-        const FilmOrigin origin = someOrigin();
+    for (const FilmLayerSet layers : {FilmLayerSet{0}, kLayerNormal, kAllLayers}) {
+        const bool light = layers != kLayerNormal;
+        const Film film = someFilm(light, layers);
+        FilmOrigin origin = someOrigin();
+        origin.settings.layers = layers;
         writeCheckpoint(file_, origin, film, someStatistics());
         const Checkpoint read = readCheckpoint(file_);
         EXPECT_TRUE(same(read.state.film.sums(), film.sums()));
@@ -98,6 +107,8 @@ TEST_F(CheckpointTest, KeepsEverything) {
         EXPECT_EQ(read.state.film.lightPaths(), film.lightPaths());
         EXPECT_EQ(read.state.film.quantum(), film.quantum());
         EXPECT_EQ(read.state.film.carries(), film.carries());
+        EXPECT_EQ(read.state.film.layers(), layers);
+        EXPECT_TRUE(std::ranges::equal(read.state.film.layerSums(), film.layerSums()));
         EXPECT_EQ(read.state.film.width(), kWidth);
         EXPECT_EQ(read.state.film.height(), kHeight);
         EXPECT_EQ(read.state.lastBounceRadiance, 1.0 / 3.0);
@@ -142,6 +153,27 @@ TEST_F(CheckpointTest, ADamagedFileIsRefused) {
     EXPECT_THROW(readCheckpoint(folder_ / "missing"), InputError);
 }
 
+/// The bytes of a checkpoint with another header of the same length.
+std::string withHeader(std::string bytes, const std::string& was, const std::string& is) {
+    bytes.replace(bytes.find(was), was.size(), is);
+    bytes.resize(bytes.size() - sizeof(std::uint64_t));
+    Hasher checksum;
+    checksum.add(bytes);
+    const std::uint64_t sum = checksum.digest();
+    bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    return bytes;
+}
+
+TEST_F(CheckpointTest, LayersThatDoNotFitAreRefused) {
+    writeCheckpoint(file_, someOrigin(), someFilm(false, kLayerNormal), someStatistics());
+    const std::string good = readFile(file_);
+    const std::string layers = R"("layers":["normal"])";
+    expectRefused(withHeader(good, layers, R"("layers":["moral!"])"),
+                  "has a layer 'moral!', which this version does not know");
+    expectRefused(withHeader(good, layers, R"("layers":["normal",)"), "its header cannot be read");
+    expectRefused(withHeader(good, layers, R"("layers":[        ])"), "its parts do not fit");
+}
+
 TEST_F(CheckpointTest, AnotherOriginIsRefusedByName) {
     struct Change {
         const char* word;
@@ -155,6 +187,7 @@ TEST_F(CheckpointTest, AnotherOriginIsRefusedByName) {
         {"bounces", [](FilmOrigin& o) { o.settings.bounces = 13; }},
         {"seed", [](FilmOrigin& o) { o.settings.seed = 1; }},
         {"sampler", [](FilmOrigin& o) { o.settings.sampler = Sampler::kSobol; }},
+        {"layers: is normal, but none of", [](FilmOrigin& o) { o.settings.layers = kLayerNormal; }},
         {"direct light", [](FilmOrigin& o) { o.directLight = DirectLight::kSampled; }}};
     for (const Change& change : changes) {
         FilmOrigin other = someOrigin();
