@@ -27,7 +27,7 @@ DUOLUX_CONST float kLayerQuanta = 1073741824.0f;
 DUOLUX_CONST uint kBindingLayers = 11u;
 
 // The layers to accumulate: bit i stands for the layer with index i.
-DUOLUX_CONST uint kSpecFilmLayers = 21u;
+DUOLUX_CONST uint kSpecFilmLayers = 22u;
 
 DUOLUX_END
 #endif
