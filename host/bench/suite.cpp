@@ -177,13 +177,13 @@ void SceneSuite::State::addFilms() {
     const auto pixels =
         std::make_shared<std::vector<std::uint32_t>>(pixelOrder(options.width, options.height));
     if (wanted("film/path")) {
-        const auto slots =
-            static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxSlots));
+        const auto count =
+            static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxPixels));
         const auto gathering =
-            std::make_shared<PathKernel>(device, deviceScene, scene, *pixels, slots, false);
-        gathering->submit(0, {0, slots, 0, 1}, film->quantum());
+            std::make_shared<PathKernel>(device, deviceScene, scene, *pixels, count, false);
+        gathering->submit(0, {0, count, 0, 1}, film->quantum());
         gathering->wait(0);
-        addFilm("path", slots, sizeof(shared::SlotResult),
+        addFilm("path", count, sizeof(shared::SlotResult),
                 [pixels, gathering, film] { gathering->addTo(*film, 0); });
     }
     if (wanted("film/light")) {

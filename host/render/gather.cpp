@@ -21,11 +21,11 @@ class Gatherer {
         const auto pipelineStart = RenderContext::Clock::now();
         const RenderControl& control = context_.control;
         RenderStatistics& statistics = context_.statistics;
-        const std::uint32_t maxSlots = std::min<std::uint32_t>(
+        const std::uint32_t maxPixels = std::min<std::uint32_t>(
             static_cast<std::uint32_t>(pixels_.size()),
-            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathKernel::kMaxSlots);
+            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathKernel::kMaxPixels);
         statistics.directLightInClosedForm = chooseClosedForm();
-        PathKernel kernel(context_.device, context_.deviceScene, context_.scene, pixels_, maxSlots,
+        PathKernel kernel(context_.device, context_.deviceScene, context_.scene, pixels_, maxPixels,
                           statistics.directLightInClosedForm);
         statistics.pipelineSeconds =
             std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
@@ -58,8 +58,8 @@ class Gatherer {
                 ? std::min(PathKernel::kMaxSamples, control.maxSamplesPerDispatch)
                 : PathKernel::kMaxSamples;
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), control.firstSample,
-                          context_.scene.render.spp, kernel.maxSlots(), maxSamples);
-        if (context_.samplesResumed > 0) schedule.resume(samplesOfSlots());
+                          context_.scene.render.spp, kernel.maxPixels(), maxSamples);
+        if (context_.samplesResumed > 0) schedule.resume(samplesOfPixels());
         if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.laneSamples();
         context_.begin();
@@ -91,13 +91,13 @@ class Gatherer {
     /// to be traced.
     float chooseQuantum(PathKernel& kernel) {
         constexpr std::uint32_t kSamples = 4096;
-        const std::uint32_t end = kernel.firstLookSlot() + kernel.lookSlots();
-        const std::uint32_t wanted = std::min(PathKernel::kMaxSamples, kSamples / kernel.lookSlots());
+        const std::uint32_t end = kernel.firstLookPixel() + kernel.lookPixels();
+        const std::uint32_t wanted = std::min(PathKernel::kMaxSamples, kSamples / kernel.lookPixels());
         return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
             FirstLook sum;
-            WorkRange range{kernel.firstLookSlot(), 0, 0, 1};
+            WorkRange range{kernel.firstLookPixel(), 0, 0, 1};
             while (range.firstSample < wanted) {
-                range.slots = std::min(kernel.maxSlots(), end - range.firstSlot);
+                range.pixels = std::min(kernel.maxPixels(), end - range.firstPixel);
                 kernel.submit(0, range, quantum);
                 const PathKernel::Results results = kernel.wait(0);
                 context_.received(results.deviceSeconds, range.size());
@@ -110,9 +110,9 @@ class Gatherer {
                 sum.visible += look.visible;
                 sum.samples += look.samples;
                 sum.clamped = sum.clamped || look.clamped;
-                range.firstSlot += range.slots;
-                if (range.firstSlot < end) continue;
-                range.firstSlot = kernel.firstLookSlot();
+                range.firstPixel += range.pixels;
+                if (range.firstPixel < end) continue;
+                range.firstPixel = kernel.firstLookPixel();
                 ++range.firstSample;
             }
             return sum;
@@ -127,7 +127,7 @@ class Gatherer {
         ++context_.statistics.dispatchesCutShort;
     }
 
-    std::vector<std::uint32_t> samplesOfSlots() const {
+    std::vector<std::uint32_t> samplesOfPixels() const {
         std::vector<std::uint32_t> samples;
         samples.reserve(pixels_.size());
         for (std::uint32_t pixel : pixels_)

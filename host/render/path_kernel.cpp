@@ -30,7 +30,7 @@ std::vector<Binding> pathBindings(std::vector<Binding> bindings, const Buffer& p
 }
 
 /// Pixels of a grid over the image, at most 64 x 64.
-std::vector<std::uint32_t> lookPixels(std::uint32_t width, std::uint32_t height) {
+std::vector<std::uint32_t> gridPixels(std::uint32_t width, std::uint32_t height) {
     constexpr std::uint32_t kMost = 64;
     const std::uint32_t columns = std::min(width, kMost), rows = std::min(height, kMost);
     std::vector<std::uint32_t> pixels;
@@ -54,19 +54,20 @@ Buffer uploadPixels(const Device& device, std::span<const std::uint32_t> pixels,
 }  // namespace
 
 PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-                       std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm)
+                       std::span<const std::uint32_t> pixels, std::uint32_t maxPixels, bool closedForm)
     : laneSamples_(lanePaths(deviceScene)),
-      maxSlots_(maxSlots),
-      lookSlots_(std::min(scene.render.width, 64u) * std::min(scene.render.height, 64u)),
+      maxPixels_(maxPixels),
+      lookPixels_(std::min(scene.render.width, 64u) * std::min(scene.render.height, 64u)),
       pixels_(pixels),
       layerChannels_(channelsOf(scene.render.layers)),
-      teams_(device, deviceScene.tuning, maxSlots),
+      teams_(device, deviceScene.tuning, maxPixels),
       params_(uploadParams(device, deviceScene, scene)),
-      pixelOrder_(uploadPixels(device, pixels, lookPixels(scene.render.width, scene.render.height))),
-      results_(Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxSlots}, "results")),
+      pixelOrder_(uploadPixels(device, pixels, gridPixels(scene.render.width, scene.render.height))),
+      results_(
+          Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxPixels}, "results")),
       // Without layers, a few bytes that are bound but not used.
       layerResults_(Buffer::readback(
-          device, std::max(2 * sizeof(std::int64_t) * maxSlots * layerChannels_, sizeof(std::int64_t)),
+          device, std::max(2 * sizeof(std::int64_t) * maxPixels * layerChannels_, sizeof(std::int64_t)),
           "layers")),
       kernel_(device, "path",
               variantFor(deviceScene.tuning.layout, spirv::kPathKernelTexel, spirv::kPathKernelStorage,
@@ -81,32 +82,32 @@ std::uint64_t PathKernel::deviceBytes() const {
 }
 
 void PathKernel::submit(unsigned place, const WorkRange& range, float quantum) {
-    assert(range.slots <= maxSlots_ && range.samples <= std::min(kMaxSamples, laneSamples_));
-    const std::uint32_t teamSlots = teams_.share(range.slots, laneSamples_ / range.samples);
-    submitted_[place] = {range, teamSlots};
-    const shared::DispatchParams push{range.firstSlot,         range.slots,   range.firstSample,
-                                      range.samples,           teamSlots,     place * maxSlots_,
+    assert(range.pixels <= maxPixels_ && range.samples <= std::min(kMaxSamples, laneSamples_));
+    const std::uint32_t teamPixels = teams_.share(range.pixels, laneSamples_ / range.samples);
+    submitted_[place] = {range, teamPixels};
+    const shared::DispatchParams push{range.firstPixel,        range.pixels,  range.firstSample,
+                                      range.samples,           teamPixels,    place * maxPixels_,
                                       teams_.firstTeam(place), 1.0f / quantum};
     commands_[place].submit("tracing paths", [&](const Commands& commands) {
-        teams_.record(commands, kernel_, push, place, range.slots, teamSlots);
+        teams_.record(commands, kernel_, push, place, range.pixels, teamPixels);
     });
 }
 
 PathKernel::Results PathKernel::wait(unsigned place) {
     const double seconds = commands_[place].wait("tracing paths");
-    const auto& [range, teamSlots] = submitted_[place];
-    return {range, teamSlots / teams_.lanes() * range.samples, teams_.complete(place), seconds};
+    const auto& [range, teamPixels] = submitted_[place];
+    return {range, teamPixels / teams_.lanes() * range.samples, teams_.complete(place), seconds};
 }
 
 PathKernel::Totals PathKernel::read(unsigned place) {
     results_.invalidate();
     const WorkRange& range = submitted_[place].range;
-    const auto* slots =
-        reinterpret_cast<const shared::SlotResult*>(results_.mapped()) + std::size_t{place} * maxSlots_;
+    const auto* results =
+        reinterpret_cast<const shared::SlotResult*>(results_.mapped()) + std::size_t{place} * maxPixels_;
     Totals totals;
-    sums_.resize(range.slots);
-    for (std::size_t i = 0; i < range.slots; ++i) {
-        const shared::SlotResult& r = slots[i];
+    sums_.resize(range.pixels);
+    for (std::size_t i = 0; i < range.pixels; ++i) {
+        const shared::SlotResult& r = results[i];
         for (std::size_t c = 0; c < 3; ++c) {
             sums_[i].invisible[c] = signed64(r.invisible[2 * c], r.invisible[2 * c + 1]);
             sums_[i].visible[c] = signed64(r.visible[2 * c], r.visible[2 * c + 1]);
@@ -127,13 +128,13 @@ PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
     const Totals totals = read(place);
     const WorkRange& range = submitted_[place].range;
     layerResults_.invalidate();
-    const std::size_t count = std::size_t{range.slots} * layerChannels_;
+    const std::size_t count = std::size_t{range.pixels} * layerChannels_;
     const auto* words = reinterpret_cast<const std::uint32_t*>(layerResults_.mapped()) +
-                        2 * std::size_t{place} * maxSlots_ * layerChannels_;
+                        2 * std::size_t{place} * maxPixels_ * layerChannels_;
     layerSums_.resize(count);
     for (std::size_t i = 0; i < count; ++i)
         layerSums_[i] = signed64(words[2 * i], words[2 * i + 1]);
-    film.add(pixels_.subspan(range.firstSlot, range.slots), sums_, range.samples, layerSums_);
+    film.add(pixels_.subspan(range.firstPixel, range.pixels), sums_, range.samples, layerSums_);
     return totals;
 }
 

@@ -19,36 +19,36 @@
 
 namespace duolux {
 
-/// The kernel of the path tracer, specialised for a scene. Slots are pixels in the order of `pixels`.
+/// The kernel of the path tracer, specialised for a scene. Pixels are numbered in the order of `pixels`.
 class PathKernel {
   public:
-    /// Largest number of samples of a slot in one dispatch. Their sum fits into the device's 64 bits
+    /// Largest number of samples of a pixel in one dispatch. Their sum fits into the device's 64 bits
     /// (film.glsl clamps a sample to shared::kFilmLargest).
     static constexpr std::uint32_t kMaxSamples = 16;
-    /// Largest useful number of slots in one dispatch.
-    static constexpr std::uint32_t kMaxSlots = 1u << 18;
+    /// Largest useful number of pixels in one dispatch.
+    static constexpr std::uint32_t kMaxPixels = 1u << 18;
 
-    /// `maxSlots`: largest number of slots in one dispatch. `closedForm`: direct light is computed in closed
-    /// form instead of being sampled. `deviceScene` must be made from `scene`; `deviceScene` and `pixels`
-    /// must outlive this object.
+    /// `maxPixels`: largest number of pixels in one dispatch. `closedForm`: direct light is computed in
+    /// closed form instead of being sampled. `deviceScene` must be made from `scene`; `deviceScene` and
+    /// `pixels` must outlive this object.
     PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-               std::span<const std::uint32_t> pixels, std::uint32_t maxSlots, bool closedForm);
+               std::span<const std::uint32_t> pixels, std::uint32_t maxPixels, bool closedForm);
 
-    std::uint32_t maxSlots() const { return maxSlots_; }
+    std::uint32_t maxPixels() const { return maxPixels_; }
     std::uint64_t deviceBytes() const;
 
-    /// Number of samples that a lane traces in one dispatch, over all its slots. With more samples, the lanes
-    /// of a team wait less for the last one, but some drivers end long loops early.
+    /// Number of samples that a lane traces in one dispatch, over all its pixels. With more samples, the
+    /// lanes of a team wait less for the last one, but some drivers end long loops early.
     std::uint32_t laneSamples() const { return laneSamples_; }
     void limitLaneSamples(std::uint32_t samples) { laneSamples_ = std::min(laneSamples_, samples); }
 
-    /// The first of the additional slots after those of `pixels`. They are spread evenly over the image, for
-    /// the first look.
-    std::uint32_t firstLookSlot() const { return static_cast<std::uint32_t>(pixels_.size()); }
-    std::uint32_t lookSlots() const { return lookSlots_; }
+    /// The number of the first of the pixels that follow those of `pixels`. They are spread evenly over the
+    /// image, for the first look.
+    std::uint32_t firstLookPixel() const { return static_cast<std::uint32_t>(pixels_.size()); }
+    std::uint32_t lookPixels() const { return lookPixels_; }
 
     /// Submits a dispatch. Two may be in flight, in the places 0 and 1. A range has at most laneSamples()
-    /// samples of a slot. `quantum`: of the film.
+    /// samples of a pixel. `quantum`: of the film.
     void submit(unsigned place, const WorkRange& range, float quantum);
 
     struct Results {
@@ -68,18 +68,18 @@ class PathKernel {
     };
     /// Adds the sums of the finished dispatch in a place to a film of the scene's size and quantum.
     Totals addTo(Film& film, unsigned place);
-    /// The same sums, totalled over the slots.
+    /// The same sums, totalled over the pixels.
     FirstLook look(unsigned place);
 
   private:
     struct Submitted {
         WorkRange range;
-        std::uint32_t teamSlots = 0;
+        std::uint32_t teamPixels = 0;
     };
 
     Totals read(unsigned place);
 
-    std::uint32_t laneSamples_, maxSlots_, lookSlots_;
+    std::uint32_t laneSamples_, maxPixels_, lookPixels_;
     std::span<const std::uint32_t> pixels_;
     // Of a dispatch.
     std::vector<Film::PixelSum> sums_;

@@ -8,18 +8,18 @@ namespace duolux {
 
 namespace {
 
-constexpr std::uint32_t kFirstSlots = 256;    // size of a run before the speed is known
-constexpr std::uint32_t kGranularity = 64;    // the size of a run is a multiple of this
-constexpr std::uint32_t kBehindSlots = 2048;  // slots in a resumed range
+constexpr std::uint32_t kFirstPixels = 256;    // size of a run before the speed is known
+constexpr std::uint32_t kGranularity = 64;     // the size of a run is a multiple of this
+constexpr std::uint32_t kBehindPixels = 2048;  // pixels in a resumed range
 
 }  // namespace
 
-Schedule::Schedule(std::uint32_t slots, std::uint32_t firstSample, std::uint32_t endSample,
-                   std::uint32_t maxSlots, std::uint32_t maxSamples)
-    : slots_(slots),
+Schedule::Schedule(std::uint32_t pixels, std::uint32_t firstSample, std::uint32_t endSample,
+                   std::uint32_t maxPixels, std::uint32_t maxSamples)
+    : pixels_(pixels),
       firstSample_(firstSample),
       endSample_(endSample),
-      maxSlots_(maxSlots),
+      maxPixels_(maxPixels),
       maxSamples_(maxSamples),
       passBegin_(firstSample),
       passEnd_(firstSample + 1),
@@ -35,9 +35,10 @@ void Schedule::resume(std::span<const std::uint32_t> taken) {
     const std::uint32_t wanted = endSample_ - firstSample_;
     const std::uint32_t most = std::min(*std::max_element(taken.begin(), taken.end()), wanted);
     if (most == 0) return;
-    for (std::uint32_t begin = 0; begin < slots_;) {
+    for (std::uint32_t begin = 0; begin < pixels_;) {
         std::uint32_t end = begin + 1;
-        while (end < slots_ && end - begin < std::min(kBehindSlots, maxSlots_) && taken[end] == taken[begin])
+        while (end < pixels_ && end - begin < std::min(kBehindPixels, maxPixels_) &&
+               taken[end] == taken[begin])
             ++end;
         for (std::uint32_t s = taken[begin]; s < most; s += maxSamples_)
             behind_.push_back({begin, end - begin, firstSample_ + s, std::min(maxSamples_, most - s)});
@@ -49,16 +50,16 @@ void Schedule::resume(std::span<const std::uint32_t> taken) {
 }
 
 void Schedule::chooseRun(double secondsPerSample) {
-    double slots = kFirstSlots;
+    double pixels = kFirstPixels;
     runSamples_ = std::min(maxSamples_, passEnd_ - passBegin_);
     if (secondsPerSample > 0.0) {
         const double samples = kDispatchSeconds / secondsPerSample;  // in one dispatch
         runSamples_ = static_cast<std::uint32_t>(
             std::clamp(std::floor(samples / kGranularity), 1.0, static_cast<double>(runSamples_)));
-        slots = std::max(std::floor(samples / runSamples_ / kGranularity), 1.0) * kGranularity;
+        pixels = std::max(std::floor(samples / runSamples_ / kGranularity), 1.0) * kGranularity;
     }
-    runSlots_ = static_cast<std::uint32_t>(
-        std::min({slots, static_cast<double>(maxSlots_), static_cast<double>(slots_ - firstSlot_)}));
+    runPixels_ = static_cast<std::uint32_t>(
+        std::min({pixels, static_cast<double>(maxPixels_), static_cast<double>(pixels_ - firstPixel_)}));
 }
 
 std::optional<WorkRange> Schedule::take(std::vector<WorkRange>& waiting, std::uint32_t laneSamples,
@@ -84,13 +85,13 @@ std::optional<WorkRange> Schedule::next(double secondsPerSample, std::uint32_t l
     if (passBegin_ >= endSample_ || (wanted == Wanted::kFirstPass && passBegin_ > firstSample_))
         return std::nullopt;
     if (nextSample_ == passBegin_) chooseRun(secondsPerSample);
-    const WorkRange range{firstSlot_, runSlots_, nextSample_,
+    const WorkRange range{firstPixel_, runPixels_, nextSample_,
                           std::min({runSamples_, laneSamples, passEnd_ - nextSample_})};
     nextSample_ += range.samples;
     if (nextSample_ == passEnd_) {
-        firstSlot_ += runSlots_;
-        if (firstSlot_ == slots_) {
-            firstSlot_ = 0;
+        firstPixel_ += runPixels_;
+        if (firstPixel_ == pixels_) {
+            firstPixel_ = 0;
             passBegin_ = passEnd_;
             passEnd_ += std::min(maxSamples_, endSample_ - passBegin_);
         }

@@ -10,18 +10,18 @@
 namespace duolux {
 namespace {
 
-/// How often each (slot, sample) was handed out.
+/// How often each (pixel, sample) was handed out.
 using Counts = std::map<std::pair<std::uint32_t, std::uint32_t>, int>;
 
 void count(Counts& counts, const WorkRange& range) {
-    for (std::uint32_t slot = range.firstSlot; slot < range.firstSlot + range.slots; ++slot) {
+    for (std::uint32_t pixel = range.firstPixel; pixel < range.firstPixel + range.pixels; ++pixel) {
         for (std::uint32_t s = range.firstSample; s < range.firstSample + range.samples; ++s)
-            ++counts[{slot, s}];
+            ++counts[{pixel, s}];
     }
 }
 
-void expectEachOnce(const Counts& counts, std::size_t slots, std::size_t samples) {
-    EXPECT_EQ(counts.size(), slots * samples);
+void expectEachOnce(const Counts& counts, std::size_t pixels, std::size_t samples) {
+    EXPECT_EQ(counts.size(), pixels * samples);
     for (const auto& [work, times] : counts)
         ASSERT_EQ(times, 1) << work.first << " " << work.second;
 }
@@ -31,17 +31,17 @@ TEST(Schedule, HandsOutEachSampleOnceAtAnySpeed) {
         for (const std::uint32_t lane : {1u, 3u, 128u}) {
             Schedule schedule(700, 0, 21, 300, 16);
             Counts counts;
-            std::uint32_t firstSampleSlots = 0;
+            std::uint32_t firstSamplePixels = 0;
             while (const auto range = schedule.next(seconds, lane, Wanted::kAll)) {
-                EXPECT_LE(range->slots, 300u);
+                EXPECT_LE(range->pixels, 300u);
                 EXPECT_LE(range->samples, std::min(lane, 16u));
                 EXPECT_LE(static_cast<double>(range->size()) * seconds,
                           std::max(kDispatchSeconds, 64 * seconds) * 1.0001);
                 if (range->firstSample == 0) {
                     EXPECT_EQ(range->samples, 1u);
-                    firstSampleSlots += range->slots;
+                    firstSamplePixels += range->pixels;
                 } else {
-                    EXPECT_EQ(firstSampleSlots, 700u) << "the first pass comes first";
+                    EXPECT_EQ(firstSamplePixels, 700u) << "the first pass comes first";
                 }
                 count(counts, *range);
             }
@@ -57,7 +57,7 @@ TEST(Schedule, RunsTakeAboutTheTimeOfADispatch) {
     const WorkRange range = *schedule.next(2e-6, 128, Wanted::kAll);
     EXPECT_EQ(range.samples, 16u);
     EXPECT_NEAR(static_cast<double>(range.size()) * 2e-6, kDispatchSeconds, 0.05 * kDispatchSeconds);
-    // Where one sample is slow, few are taken of few slots.
+    // Where one sample is slow, few are taken of few pixels.
     Schedule slow(1000, 0, 100, 1000, 16);
     while (slow.next(1e-3, 128, Wanted::kAll)->firstSample == 0) {
     }
@@ -102,7 +102,7 @@ TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
     }
     expectEachOnce(counts, 600, 1);
     EXPECT_FALSE(schedule.next(0.0, 128, Wanted::kFirstPass));
-    // Retries are handed out in every pass, because their slots must not keep gaps.
+    // Retries are handed out in every pass, because their pixels must not keep gaps.
     for (const Wanted wanted : {Wanted::kFirstPass, Wanted::kRetries}) {
         EXPECT_TRUE(schedule.settled());
         schedule.retry({0, 10, 3, 2});
@@ -125,13 +125,13 @@ TEST(Schedule, GoesOnFromAnyState) {
     constexpr std::uint32_t kFirst = 5, kEnd = 40;
     const auto resumed = [](const std::vector<std::uint32_t>& taken) {
         Counts counts;
-        for (std::uint32_t slot = 0; slot < taken.size(); ++slot) {
-            if (taken[slot] > 0) count(counts, {slot, 1, kFirst, taken[slot]});
+        for (std::uint32_t pixel = 0; pixel < taken.size(); ++pixel) {
+            if (taken[pixel] > 0) count(counts, {pixel, 1, kFirst, taken[pixel]});
         }
         Schedule schedule(static_cast<std::uint32_t>(taken.size()), kFirst, kEnd, 100, 16);
         schedule.resume(taken);
         while (const auto range = schedule.next(1e-5, 11, Wanted::kAll)) {
-            EXPECT_LE(range->slots, 100u);
+            EXPECT_LE(range->pixels, 100u);
             EXPECT_LE(range->samples, 11u);
             count(counts, *range);
         }
@@ -147,7 +147,7 @@ TEST(Schedule, GoesOnFromAnyState) {
     uneven[299] = kEnd - kFirst;
     resumed(uneven);
 
-    // Fewer samples than some slots have had are not exceeded by the others.
+    // Fewer samples than some pixels have had are not exceeded by the others.
     Schedule fewer(300, kFirst, kFirst + 9, 100, 16);
     fewer.resume(uneven);
     Counts some;
@@ -157,7 +157,7 @@ TEST(Schedule, GoesOnFromAnyState) {
     for (const auto& [work, times] : some)
         EXPECT_TRUE(work.second < kFirst + 9 && times == 1);
 
-    // When the time is up, slots without a sample get one sample only.
+    // When the time is up, pixels without a sample get one sample only.
     Schedule schedule(300, kFirst, kEnd, 100, 16);
     schedule.resume(uneven);
     Counts counts;
