@@ -17,10 +17,16 @@ target_compile_options(duolux_warnings INTERFACE
 # Assertions name files relative to the root: the program does not tell where it was built.
 add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 
-# duolux_library(NAME SOURCES ... LINK ...): one library per folder of host/, includes are relative to the root.
+# duolux_library(NAME SOURCES ... LINK ... [PRECOMPILE ...]): one library per folder of host/, includes are relative to the
+# root. PRECOMPILE: its precompiled headers, if not those of duolux_base.
 function(duolux_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK;PRECOMPILE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK} duolux_warnings)
+  if(ARG_PRECOMPILE)
+    target_precompile_headers(${name} PRIVATE ${ARG_PRECOMPILE})
+  else()
+    target_precompile_headers(${name} REUSE_FROM duolux_base)
+  endif()
 endfunction()
