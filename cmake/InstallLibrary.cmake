@@ -1,0 +1,26 @@
+# The library as a package: `find_package(duolux)` brings the target duolux::duolux, and <duolux.h> with what it includes.
+set(DUOLUX_INCLUDES ${CMAKE_INSTALL_INCLUDEDIR}/duolux)
+set(DUOLUX_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/duolux)
+
+# duolux_install_library(FOLDER...): the libraries of these folders of host/, those of the shaders, and their headers.
+# Headers that include Vulkan's are internal.
+function(duolux_install_library)
+  add_library(duolux_all INTERFACE)
+  set_target_properties(duolux_all PROPERTIES EXPORT_NAME duolux)
+  target_compile_features(duolux_all INTERFACE cxx_std_20)
+  list(TRANSFORM ARGN PREPEND duolux_ OUTPUT_VARIABLE libraries)
+  target_link_libraries(duolux_all INTERFACE ${libraries})
+  install(TARGETS duolux_all duolux_shaders ${libraries} EXPORT duolux
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${DUOLUX_INCLUDES})
+  install(EXPORT duolux NAMESPACE duolux:: FILE duoluxTargets.cmake DESTINATION ${DUOLUX_PACKAGE})
+  install(FILES duolux.h DESTINATION ${DUOLUX_INCLUDES})
+  foreach(folder ${ARGN})
+    install(DIRECTORY ${folder} DESTINATION ${DUOLUX_INCLUDES}/host
+      FILES_MATCHING PATTERN "*.h" PATTERN vk/handles.h EXCLUDE PATTERN vk/instance.h EXCLUDE)
+  endforeach()
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/shaders/shared DESTINATION ${DUOLUX_INCLUDES}/shaders FILES_MATCHING PATTERN "*.h")
+  include(CMakePackageConfigHelpers)
+  write_basic_package_version_file(${CMAKE_BINARY_DIR}/duoluxConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_SOURCE_DIR}/cmake/duoluxConfig.cmake ${CMAKE_BINARY_DIR}/duoluxConfigVersion.cmake
+    DESTINATION ${DUOLUX_PACKAGE})
+endfunction()

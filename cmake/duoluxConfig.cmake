@@ -1,0 +1,6 @@
+# Installed with the library; finds what it links.
+include(CMakeFindDependencyMacro)
+foreach(package Threads Vulkan glm fmt nlohmann_json OpenEXR PNG)
+  find_dependency(${package})
+endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/duoluxTargets.cmake)
