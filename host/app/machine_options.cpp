@@ -55,7 +55,13 @@ void addThreadsOption(CLI::App& command) {
 }
 
 Device openDevice(const std::string& selector) {
-    return withDriver([&] { return Device(selector); });
+    return withDriver([&] {
+        try {
+            return Device(selector);
+        } catch (const UsageError& e) {
+            throw UsageError(fmt::format("--device {}: {}", selector, e.what()));
+        }
+    });
 }
 
 std::vector<DeviceInfo> findDevices() {

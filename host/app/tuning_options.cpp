@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/app/options.h"
+#include "host/app/tree_folder.h"
 
 namespace duolux {
 
@@ -31,7 +32,7 @@ std::vector<std::string> namesOf(const T (&values)[N]) {
 }  // namespace
 
 TuningChoice TuningOptions::choice() const {
-    return {byName(kLayouts, layout), byName(kKernels, kernel)};
+    return {byName(kLayouts, layout), byName(kKernels, kernel), userTreeFolder()};
 }
 
 void addTuningOptions(CLI::App& command, TuningOptions& options) {

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -38,20 +38,6 @@ bool isOwnFolder(const fs::path& folder) {
 }
 
 }  // namespace
-
-std::optional<TreeCache> TreeCache::ofUser() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return fs::path(value != nullptr ? value : "");
-    };
-    if (!variable("DUOLUX_NO_CACHE").empty()) return {};
-    // The XDG Base Directory Specification requires that relative paths are ignored.
-    if (const fs::path caches = variable("XDG_CACHE_HOME"); caches.is_absolute())
-        return TreeCache(caches / "duolux");
-    if (const fs::path home = variable("HOME"); home.is_absolute())
-        return TreeCache(home / ".cache" / "duolux");
-    return {};
-}
 
 WideBvh TreeCache::tree(const Geometry& geometry, std::span<const std::uint32_t> triangles) const {
     const TreeKey key = treeKey(geometry, triangles);
@@ -113,16 +99,10 @@ void TreeCache::makeRoom() const {
     }
 }
 
-WideBvh cachedWideBvh(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
-    if (triangles.size() >= TreeCache::kFewestTriangles) {
-        if (const std::optional<TreeCache> cache = TreeCache::ofUser())
-            return cache->tree(geometry, triangles);
-    }
-    return buildWideBvh(geometry, triangles);
-}
-
-WideBvh cachedWideBvh(const Geometry& geometry) {
-    return cachedWideBvh(geometry, allTriangles(geometry));
+WideBvh cachedWideBvh(const fs::path& folder, const Geometry& geometry,
+                      std::span<const std::uint32_t> triangles) {
+    const bool kept = !folder.empty() && triangles.size() >= TreeCache::kFewestTriangles;
+    return kept ? TreeCache(folder).tree(geometry, triangles) : buildWideBvh(geometry, triangles);
 }
 
 }  // namespace duolux

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 
 #include "host/bvh/wide_bvh.h"
@@ -23,10 +22,6 @@ class TreeCache {
     explicit TreeCache(std::filesystem::path folder, std::uint64_t mostBytes = kMostBytes)
         : folder_(std::move(folder)), mostBytes_(mostBytes) {}
 
-    /// $XDG_CACHE_HOME/duolux, or ~/.cache/duolux. Empty if DUOLUX_NO_CACHE is set or the user has no home
-    /// folder.
-    static std::optional<TreeCache> ofUser();
-
     /// The tree of buildWideBvh(geometry, triangles), read from the folder or built.
     WideBvh tree(const Geometry& geometry, std::span<const std::uint32_t> triangles) const;
 
@@ -39,11 +34,9 @@ class TreeCache {
     std::uint64_t mostBytes_;
 };
 
-/// The tree of buildWideBvh(geometry, triangles), read from the user's cache if possible. Trees of at least
-/// kFewestTriangles triangles are added to the cache.
-WideBvh cachedWideBvh(const Geometry& geometry, std::span<const std::uint32_t> triangles);
-
-/// Over all triangles.
-WideBvh cachedWideBvh(const Geometry& geometry);
+/// The tree of buildWideBvh(geometry, triangles). Trees of at least kFewestTriangles triangles are kept in
+/// `folder`, unless that is empty.
+WideBvh cachedWideBvh(const std::filesystem::path& folder, const Geometry& geometry,
+                      std::span<const std::uint32_t> triangles);
 
 }  // namespace duolux

@@ -104,10 +104,11 @@ AccelerationStructure buildStructure(const Device& device, const Buffer& buffer,
 }
 
 /// The tree over all triangles, and one over the emitters behind it.
-Trees joinTrees(const Geometry& geometry, const WideBvh& all, std::span<const std::uint32_t> emitters) {
+Trees joinTrees(const Geometry& geometry, const WideBvh& all, std::span<const std::uint32_t> emitters,
+                const std::filesystem::path& treeFolder) {
     Trees trees{all.nodes, all.pairs, 0};
     if (emitters.empty()) return trees;
-    const WideBvh second = cachedWideBvh(geometry, emitters);
+    const WideBvh second = cachedWideBvh(treeFolder, geometry, emitters);
     trees.emitterRoot = static_cast<std::uint32_t>(trees.nodes.size());
     const auto firstPair = static_cast<std::uint32_t>(trees.pairs.size());
     for (shared::WideNode node : second.nodes) {
@@ -235,7 +236,8 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
     const bool emitterTree = needsEmitterTree(traits, emitters);
     const std::span<const std::uint32_t> inTree =
         emitterTree ? std::span<const std::uint32_t>(emitters) : std::span<const std::uint32_t>();
-    const Trees trees = rayQueries ? listTriangles(geometry, inTree) : joinTrees(geometry, tree, inTree);
+    const Trees trees =
+        rayQueries ? listTriangles(geometry, inTree) : joinTrees(geometry, tree, inTree, choice.treeFolder);
     tuning.layout = layoutThatFits(device.info(), tuning.layout, choice, trees.largestBuffer());
     buildSeconds += secondsSince(start);
 
@@ -313,7 +315,8 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
 DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice) {
     const auto start = std::chrono::steady_clock::now();
     WideBvh tree;
-    if (chooseTuning(device.info(), choice).layout != Layout::kRayQuery) tree = cachedWideBvh(scene.geometry);
+    if (chooseTuning(device.info(), choice).layout != Layout::kRayQuery)
+        tree = cachedWideBvh(choice.treeFolder, scene.geometry, allTriangles(scene.geometry));
     return assemble(device, scene, choice, std::move(tree), secondsSince(start));
 }
 

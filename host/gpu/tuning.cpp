@@ -20,7 +20,7 @@ std::uint64_t largestBuffer(const DeviceInfo& device, Layout layout) {
 
 Layout chooseLayout(const DeviceInfo& device, const TuningChoice& choice) {
     if (choice.layout == Layout::kRayQuery && !device.rayQueries) {
-        throw UsageError(fmt::format("--layout ray-query: {} ({}) has no ray queries; expected {} or {}",
+        throw UsageError(fmt::format("layout ray-query: {} ({}) has no ray queries; expected {} or {}",
                                      device.name, device.driver, nameOf(Layout::kTexel),
                                      nameOf(Layout::kStorage)));
     }
@@ -38,8 +38,8 @@ KernelKind chooseKernel(Layout layout, const TuningChoice& choice) {
     }
     if (choice.kernel == KernelKind::kRefilling) {
         throw UsageError(
-            "--kernel refilling: lanes cannot leave a ray query before its end; expected --kernel plain "
-            "with --layout ray-query");
+            "kernel refilling: lanes cannot leave a ray query before its end; expected kernel plain with "
+            "layout ray-query");
     }
     return KernelKind::kPlain;
 }
@@ -97,8 +97,8 @@ Layout layoutThatFits(const DeviceInfo& device, Layout chosen, const TuningChoic
     if (bytes > largestBuffer(device, other)) return chosen;
     if (!choice.layout) return other;
     throw MachineError(fmt::format(
-        "--layout {}: a buffer of this scene takes {} bytes, more than the {} that {} ({}) can bind so; "
-        "--layout {} can hold it",
+        "layout {}: a buffer of this scene takes {} bytes, more than the {} that {} ({}) can bind so; "
+        "layout {} can hold it",
         nameOf(chosen), bytes, largestBuffer(device, chosen), device.name, device.driver, nameOf(other)));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -28,6 +29,8 @@ const char* nameOf(KernelKind kind);  ///< "refilling", "plain"
 struct TuningChoice {
     std::optional<Layout> layout;
     std::optional<KernelKind> kernel;
+    /// Where trees of large scenes are kept for later uploads; empty: nowhere. See TreeCache.
+    std::filesystem::path treeFolder{};
 };
 
 /// How kernels run on a device. No value changes the image: it stays bitwise identical.

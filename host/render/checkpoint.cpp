@@ -184,7 +184,7 @@ namespace {
 Checkpoint read(const std::filesystem::path& path) {
     const std::string bytes = readFile(path);
     const Fail fail = [&](const std::string& problem) {
-        throw InputError(path.string(), "", problem, "expected a file that --checkpoint has written");
+        throw InputError(path.string(), "", problem, "expected a checkpoint");
     };
     std::uint64_t sum = 0;
     if (bytes.size() < kMagicBytes + sizeof(std::uint32_t) + sizeof sum ||

@@ -29,8 +29,7 @@ std::uint32_t chooseBandPixels(const Device& device, Layout layout, const Scene&
     if (pixels > most * bands) {
         throw MachineError(fmt::format(
             "{} ({}): a film of {}x{} pixels for light paths is too large; {} pixels can be "
-            "bound, or as many "
-            "as there are with --integrator path",
+            "bound; the path tracer has no such limit",
             device.info().name, device.info().driver, scene.render.width, scene.render.height, most * bands));
     }
     return static_cast<std::uint32_t>(std::min(pixels, most));

@@ -188,7 +188,7 @@ const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::stri
         if (!device.unusable.empty()) there += fmt::format(" (lacks {})", device.unusable);
     }
     if (selector.empty()) throw MachineError(fmt::format("no usable Vulkan device; found {}", there));
-    throw UsageError(fmt::format("--device {}: no such usable device; found {}", selector, there));
+    throw UsageError(fmt::format("no such usable device; found {}", there));
 }
 
 MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error) {

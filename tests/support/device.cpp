@@ -53,7 +53,6 @@ Device& device() {
     try {
         if (opened() == nullptr) opened() = std::make_unique<Device>(deviceSelector(), Validation::kOn);
     } catch (const UsageError& e) {
-        // The exception's message refers to an option of the program.
         throw UsageError("DUOLUX_DEVICE=" + deviceSelector() + ": " + e.what());
     }
     return *opened();

@@ -185,59 +185,19 @@ TEST_F(TreeCacheTest, IsSharedByProcesses) {
         EXPECT_EQ(file.extension(), ".tree");
 }
 
-/// The folder of the user's trees.
-class UserCache : public TreeCacheTest {
-  protected:
-    UserCache() {
-        geometry_ = sphere(58);  // 67,280 triangles: enough to be kept
-        triangles_ = allTriangles(geometry_);
-        for (const char* name : {"XDG_CACHE_HOME", "HOME", "DUOLUX_NO_CACHE"}) {
-            const char* value = std::getenv(name);
-            if (value != nullptr) before_[name] = value;
-            ::unsetenv(name);
-        }
-    }
-    ~UserCache() override {
-        for (const char* name : {"XDG_CACHE_HOME", "HOME", "DUOLUX_NO_CACHE"}) {
-            ::unsetenv(name);
-            if (before_.contains(name)) ::setenv(name, before_[name].c_str(), 1);
-        }
-    }
-    std::size_t filesIn(const fs::path& folder) const {
-        return fs::exists(folder)
-                   ? static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}))
-                   : 0;
-    }
-
-  private:
-    std::map<std::string, std::string> before_;
-};
-
-TEST_F(UserCache, IsBelowXdgCacheHomeOrHome) {
-    EXPECT_FALSE(TreeCache::ofUser().has_value());
-    ::setenv("HOME", (folder_ / "home").c_str(), 1);
-    ::setenv("XDG_CACHE_HOME", "relative", 1);
-    const WideBvh built = cachedWideBvh(geometry_);
-    EXPECT_EQ(filesIn(folder_ / "home/.cache/duolux"), 1u);
-    ::setenv("XDG_CACHE_HOME", (folder_ / "xdg").c_str(), 1);
-    expectSame(cachedWideBvh(geometry_), built);
-    EXPECT_EQ(filesIn(folder_ / "xdg/duolux"), 1u);
-    expectSame(cachedWideBvh(geometry_), built);
-    EXPECT_EQ(filesIn(folder_ / "xdg/duolux"), 1u);
-}
-
-TEST_F(UserCache, CanBeTurnedOff) {
-    ::setenv("XDG_CACHE_HOME", (folder_ / "xdg").c_str(), 1);
-    ::setenv("DUOLUX_NO_CACHE", "1", 1);
-    cachedWideBvh(geometry_);
-    EXPECT_EQ(filesIn(folder_ / "xdg"), 0u);
-}
-
-TEST_F(UserCache, HasNoTreesOfSmallScenes) {
-    ::setenv("XDG_CACHE_HOME", (folder_ / "xdg").c_str(), 1);
+/// What uploads of scenes use.
+TEST_F(TreeCacheTest, HoldsTreesOfLargeScenes) {
+    geometry_ = sphere(58);  // 67,280 triangles
+    triangles_ = allTriangles(geometry_);
+    const WideBvh built = cachedWideBvh({}, geometry_, triangles_);
+    EXPECT_FALSE(fs::exists(cache_));
+    expectSame(cachedWideBvh(cache_, geometry_, triangles_), built);
+    EXPECT_EQ(files().size(), 1u);
+    expectSame(cachedWideBvh(cache_, geometry_, triangles_), built);
+    EXPECT_EQ(files().size(), 1u);
     triangles_.resize(TreeCache::kFewestTriangles - 1);
-    cachedWideBvh(geometry_, triangles_);
-    EXPECT_EQ(filesIn(folder_ / "xdg"), 0u);
+    cachedWideBvh(cache_, geometry_, triangles_);
+    EXPECT_EQ(files().size(), 1u);
 }
 
 }  // namespace

@@ -82,12 +82,12 @@ TEST(Tuning, RayQueriesAreForDevicesThatHaveThem) {
         return chooseTuning(device, {.layout = Layout::kRayQuery, .kernel = kernel});
     };
     EXPECT_EQ(messageOf([&] { choose({}); }),
-              "--layout ray-query: a device (a driver) has no ray queries; expected texel or storage");
+              "layout ray-query: a device (a driver) has no ray queries; expected texel or storage");
     device.rayQueries = true;
     EXPECT_EQ(choose({}).layout, Layout::kRayQuery);
     EXPECT_EQ(choose({}).kernel, KernelKind::kPlain);
     EXPECT_EQ(choose(KernelKind::kPlain).kernel, KernelKind::kPlain);
-    EXPECT_THAT(messageOf([&] { choose(KernelKind::kRefilling); }), HasSubstr("--kernel refilling: lanes"));
+    EXPECT_THAT(messageOf([&] { choose(KernelKind::kRefilling); }), HasSubstr("kernel refilling: lanes"));
     EXPECT_EQ(chooseTuning(device, {}).layout, Layout::kTexel);  // only if asked for
 }
 
@@ -106,8 +106,8 @@ TEST(Tuning, AnotherLayoutTakesWhatDoesNotFitUnlessOneIsAskedFor) {
     EXPECT_EQ(fitted(Layout::kRayQuery, 1024 * kMebibyte + 1), Layout::kRayQuery);
     EXPECT_EQ(asked(Layout::kStorage, 128 * kMebibyte), Layout::kStorage);
     EXPECT_EQ(messageOf([&] { asked(Layout::kStorage, 128 * kMebibyte + 16); }),
-              "--layout storage: a buffer of this scene takes 134217744 bytes, more than the 134217728 that "
-              "a device (a driver) can bind so; --layout texel can hold it");
+              "layout storage: a buffer of this scene takes 134217744 bytes, more than the 134217728 that "
+              "a device (a driver) can bind so; layout texel can hold it");
     DeviceInfo small = device;
     small.maxTexelBufferElements = 65536;
     EXPECT_EQ(layoutThatFits(small, Layout::kTexel, {}, kMebibyte), Layout::kTexel);

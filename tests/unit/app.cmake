@@ -1,0 +1,1 @@
+duolux_test(app_test SOURCES app_tree_folder_test.cpp LINK duolux_options)
