@@ -78,6 +78,10 @@ std::string describe(const glm::vec3& value) {
     return colour(value);
 }
 
+std::string describe(const float& value) {
+    return fmt::format("{:g}", value);
+}
+
 std::string describe(const Sides& sides) {
     return nameOf(sides);
 }

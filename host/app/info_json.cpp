@@ -32,6 +32,10 @@ Json placeJson(const Scene& scene, const glm::vec3& place) {
     return scene.origin == glm::dvec3(0.0) ? toJson(place) : toJson(placeInFile(scene, place));
 }
 
+Json toJson(const float& value) {
+    return number(value);
+}
+
 Json toJson(const Sides& sides) {
     return nameOf(sides);
 }
@@ -137,7 +141,7 @@ LargestFactor largestFactor(const Scene& scene) {
     constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
     LargestFactor largest;
     for (const Material& material : scene.materials) {
-        const MaterialEnergy energy = materialEnergy(scene.reflectanceOf(material), material.diffuse);
+        const MaterialEnergy energy = materialEnergy(scene.reflectanceOf(material), meanAlbedo(material));
         for (int i = 0; i < 3; ++i) {
             if (energy.factor[i] <= largest.factor) continue;
             largest.factor = energy.factor[i];

@@ -8,6 +8,7 @@
 
 #include "host/bench/trace_kernel.h"
 #include "host/render/pixel_order.h"
+#include "host/scene/emitters.h"
 #include "host/scene/image_plane.h"
 
 namespace duolux {
@@ -66,13 +67,12 @@ glm::vec3 cosineDirection(const glm::vec3& normal, Random& random) {
 /// Points on emitters, uniform in area.
 class Emitters {
   public:
-    explicit Emitters(const Scene& scene) : geometry_(scene.geometry) {
+    explicit Emitters(const Scene& scene)
+        : geometry_(scene.geometry), triangles_(emittingTriangles(scene)) {
         double area = 0.0;
-        for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i) {
-            if (!scene.materials[geometry_.materials[i]].emission.any()) continue;
+        for (const std::uint32_t i : triangles_) {
             const auto [a, b, c] = corners(i);
             area += static_cast<double>(glm::length(glm::cross(b - a, c - a)));
-            triangles_.push_back(i);
             sums_.push_back(area);
         }
     }

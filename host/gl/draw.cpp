@@ -73,7 +73,7 @@ GLuint compileShader(GLenum kind, const char* source) {
 
 /// Albedo or emission of the two sides.
 std::array<glm::vec3, 2> diffuseOf(const Material& m) {
-    return {m.diffuse, m.sides == Sides::kBoth ? m.diffuse : glm::vec3(0.0f)};
+    return {m.baseColor, m.sides == Sides::kBoth ? m.baseColor : glm::vec3(0.0f)};
 }
 std::array<glm::vec3, 2> emissionOf(const Material& m) {
     return {m.emission.visible, m.emission.sides == Sides::kBoth ? m.emission.visible : glm::vec3(0.0f)};
@@ -290,7 +290,7 @@ void GlScene::drawWireframe() {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glDepthFunc(GL_LEQUAL);
-    drawRanges([](const Material& material) { glColor3fv(glm::value_ptr(material.diffuse)); });
+    drawRanges([](const Material& material) { glColor3fv(glm::value_ptr(material.baseColor)); });
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 

@@ -80,6 +80,11 @@ void run(const Arguments& arguments) {
     if (scene.display != glm::vec2(0.0f, 1.0f)) {
         throw InputError(arguments.scene, "display", "is not what OpenGL draws", "expected [0, 1]");
     }
+    for (const Material& material : scene.materials) {
+        if (material.metallic > 0.0f)
+            throw InputError(arguments.scene, fmt::format("material {}", material.name), "is a metal",
+                             "expected diffuse materials, which are all that is drawn here");
+    }
     DrawOptions options;
     options.lighting = lightingOf(arguments.lighting);
     options.passes = arguments.passes;

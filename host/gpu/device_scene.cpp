@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/bvh/tree_cache.h"
-#include "host/gpu/lights.h"
+#include "host/gpu/emitter_table.h"
 #include "host/gpu/surface_planes.h"
+#include "host/scene/emitters.h"
 #include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
@@ -42,13 +44,15 @@ std::uint32_t materialFlags(const Geometry& geometry, std::uint32_t triangle) {
     return geometry.materials[triangle] | (isSmooth(geometry, triangle) ? shared::kTriangleSmooth : 0u);
 }
 
-shared::DevicePair devicePair(const Geometry& geometry, const SurfacePlanes& planes, const TrianglePair& pair,
+shared::DevicePair devicePair(const Geometry& geometry, const TriangleRanks& ranks, const TrianglePair& pair,
                               const PairCorners& corners) {
     const auto position = [&](std::size_t corner) { return geometry.positions[corners.positions[corner]]; };
     const std::uint32_t second = pair.isSingle() ? pair.first : pair.second;
-    const std::uint32_t secondRank = pair.isSingle() ? TrianglePair::kNone : planes.rankOf(pair.second);
-    return {position(0), planes.rankOf(pair.first),           position(1), materialFlags(geometry, second),
-            position(2), materialFlags(geometry, pair.first), position(3), secondRank};
+    const std::uint32_t secondRank = pair.isSingle() ? TrianglePair::kNone : ranks.rankOf(pair.second);
+    return {position(0), ranks.rankOf(pair.first),
+            position(1), materialFlags(geometry, second),
+            position(2), materialFlags(geometry, pair.first),
+            position(3), secondRank};
 }
 
 /// `turn`: the index of the corner that comes first.
@@ -120,27 +124,20 @@ Trees joinTrees(const Geometry& geometry, const WideBvh& all, std::span<const st
     return trees;
 }
 
-std::vector<std::uint32_t> emittingTriangles(const Scene& scene) {
-    const Geometry& geometry = scene.geometry;
-    std::vector<std::uint32_t> emitters;
-    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-        if (scene.materials[geometry.materials[i]].emission.any()) emitters.push_back(i);
-    }
-    return emitters;
-}
-
 /// The separate tree over emitters serves only rays that no surface blocks.
 bool needsEmitterTree(const TransportTraits& traits, std::span<const std::uint32_t> emitters) {
     return traits.transmittance == shared::kTransmittanceIdentity && !emitters.empty();
 }
 
-LightTable lightTableOf(const Scene& scene, const TransportTraits& traits) {
-    return buildLightTable(scene, traits.secondColumn || scene.render.integrator == Integrator::kLight);
+EmitterTable emitterTableOf(const Scene& scene, std::span<const std::uint32_t> emitters,
+                            const TransportTraits& traits) {
+    return buildEmitterTable(scene, emitters,
+                             traits.secondColumn || scene.render.integrator == Integrator::kLight);
 }
 
-bool hasClosedForm(const TransportTraits& traits, bool smoothNormals, std::size_t lights) {
-    return traits.transmittance == shared::kTransmittanceIdentity && !smoothNormals && lights > 0 &&
-           lights <= kMostClosedFormLights;
+bool hasClosedForm(const TransportTraits& traits, bool smoothNormals, std::size_t emitters) {
+    return traits.transmittance == shared::kTransmittanceIdentity && traits.lobes == shared::kLobeDiffuse &&
+           !smoothNormals && emitters > 0 && emitters <= kMostClosedFormEmitters;
 }
 
 /// For each triangle of the scene, its index in device memory (or that of a copy).
@@ -176,20 +173,17 @@ Bounds widenedBounds(const Geometry& geometry, std::span<const std::uint32_t> tr
     return {bounds.lower - margin, bounds.upper + margin};
 }
 
-std::vector<shared::DeviceMaterial> deviceMaterials(const Scene& scene, const LightTable& table) {
+std::vector<shared::DeviceMaterial> deviceMaterials(const Scene& scene) {
     std::vector<shared::DeviceMaterial> out;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& material = scene.materials[i];
+    for (const Material& material : scene.materials) {
+        // All fields by name: a further one does not compile until it is handled here.
+        const auto& [name, baseColor, metallic, roughness, sides, emission, ownReflectance] = material;
+        static_cast<void>(std::tie(name, emission, ownReflectance));  // elsewhere, or resolved below
         shared::DeviceMaterial d{};
-        d.diffuse = material.diffuse;
-        d.flags = material.sides == Sides::kBoth ? shared::kMaterialTwoSided : 0u;
-        if (material.emission.any()) {
-            d.flags |= shared::kMaterialEmitsFront;
-            if (material.emission.sides == Sides::kBoth) d.flags |= shared::kMaterialEmitsBack;
-        }
-        d.invisibleEmission = material.emission.invisible;
-        d.visibleEmission = material.emission.visible;
-        d.lightPdfArea = table.pdfArea[i];
+        d.baseColor = baseColor;
+        d.metallic = metallic;
+        d.roughness = roughness;
+        d.flags = sides == Sides::kBoth ? shared::kMaterialTwoSided : 0u;
         const Reflectance& reflectance = scene.reflectanceOf(material);
         storeMatrix(reflectance.opaque, d.opaque);
         storeMatrix(reflectance.transparent, d.transparent);
@@ -208,7 +202,7 @@ std::vector<Binding> DeviceScene::treeBindings() const {
 
 std::uint64_t DeviceScene::deviceBytes() const {
     return nodes.allocated() + triangles.allocated() + normals.allocated() + materials.allocated() +
-           lights.allocated() + planes.allocated() + (structure ? structure->allocated() : 0);
+           emitterRecords.allocated() + planes.allocated() + (structure ? structure->allocated() : 0);
 }
 
 void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene) {
@@ -242,7 +236,8 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
     buildSeconds += secondsSince(start);
 
     start = std::chrono::steady_clock::now();
-    const SurfacePlanes surfaces(scene);
+    const SurfacePlanes surfaces(geometry);
+    const TriangleRanks ranks(emitters);
     std::vector<glm::vec4> planes(surfaces.used() ? 2 * trees.pairs.size() : 0);
     std::vector<shared::DevicePair> pairs(trees.pairs.size());
     std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : 2 * pairs.size());
@@ -250,7 +245,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         for (std::size_t i = begin; i < end; ++i) {
             const TrianglePair& pair = trees.pairs[i];
             const PairCorners corners = cornersOf(geometry, pair).value();
-            pairs[i] = devicePair(geometry, surfaces, pair, corners);
+            pairs[i] = devicePair(geometry, ranks, pair, corners);
             for (std::size_t k = 0; k < (surfaces.used() ? (pair.isSingle() ? 1 : 2) : 0); ++k) {
                 planes[2 * i + k] = surfaces.planeOf(k == 0 ? pair.first : pair.second);
             }
@@ -259,14 +254,12 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
             normals[2 * i + 1] = deviceNormals(geometry, pair.second, corners.turns[1]);
         }
     });
-    LightTable table = lightTableOf(scene, traits);
+    EmitterTable table = emitterTableOf(scene, emitters, traits);
     if (surfaces.used()) {
         const std::vector<std::uint32_t> places = deviceTriangles(trees, geometry.triangles.size());
-        for (std::size_t i = 0; i < table.lights.size(); ++i) {
-            const std::uint32_t triangle = table.triangles[i];
-            table.lights[i].triangle = places[triangle];
-            table.lights[i].primitive = surfaces.rankOf(triangle);
-            table.lights[i].coincident = surfaces.coincident(triangle) ? 1 : 0;
+        for (std::size_t i = 0; i < emitters.size(); ++i) {
+            table.records[i].triangle = places[emitters[i]];
+            if (surfaces.coincident(emitters[i])) table.records[i].flags |= shared::kEmitterCoincident;
         }
     }
     requireDeviceMemory(
@@ -274,7 +267,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         trees.nodes.size() * sizeof(shared::WideNode) + pairs.size() * sizeof(shared::DevicePair) +
             normals.size() * sizeof(shared::DeviceNormals) +
             scene.materials.size() * sizeof(shared::DeviceMaterial) +
-            table.lights.size() * sizeof(shared::DeviceLight) + planes.size() * sizeof(glm::vec4),
+            table.records.size() * sizeof(shared::DeviceEmitter) + planes.size() * sizeof(glm::vec4),
         scene);
     using Use = BufferUse;
     const Use treeUse = tuning.layout == Layout::kStorage ? Use::kStorage : Use::kTexels;
@@ -284,8 +277,8 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         .tuning = tuning,
         .hasSmoothNormals = !normals.empty(),
         .hasPlanes = surfaces.used(),
-        .closedFormApplies = hasClosedForm(traits, !normals.empty(), table.lights.size()),
-        .lightCount = static_cast<std::uint32_t>(table.lights.size()),
+        .closedFormApplies = hasClosedForm(traits, !normals.empty(), table.choices),
+        .emitterChoices = table.choices,
         .emitterRoot = trees.emitterRoot,
         .emitterBounds = widenedBounds(geometry, emitters),
         .brightestEmission = brightestEmission(scene),
@@ -294,9 +287,10 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         .triangles = Buffer::upload<shared::DevicePair>(device, treeUse, pairs, "triangles",
                                                         rayQueries ? TreeUse::kInput : TreeUse::kNone),
         .normals = Buffer::upload<shared::DeviceNormals>(device, Use::kTexels, normals, "normals"),
-        .materials = Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels,
-                                                            deviceMaterials(scene, table), "materials"),
-        .lights = Buffer::upload<shared::DeviceLight>(device, Use::kTexels, table.lights, "lights"),
+        .materials =
+            Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels, deviceMaterials(scene), "materials"),
+        .emitterRecords =
+            Buffer::upload<shared::DeviceEmitter>(device, Use::kTexels, table.records, "emitters"),
         .planes = Buffer::upload<glm::vec4>(device, Use::kTexels, planes, "planes"),
         .tree = std::move(tree),
         .emitters = std::move(emitters),
@@ -331,15 +325,15 @@ void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scen
         return;
     }
     const auto start = std::chrono::steady_clock::now();
-    const LightTable table = lightTableOf(scene, traits);
+    const EmitterTable table = emitterTableOf(scene, emitters, traits);
     deviceScene.traits = traits;
-    deviceScene.closedFormApplies = hasClosedForm(traits, deviceScene.hasSmoothNormals, table.lights.size());
-    deviceScene.lightCount = static_cast<std::uint32_t>(table.lights.size());
+    deviceScene.closedFormApplies = hasClosedForm(traits, deviceScene.hasSmoothNormals, table.choices);
+    deviceScene.emitterChoices = table.choices;
     deviceScene.brightestEmission = brightestEmission(scene);
-    deviceScene.materials = Buffer::upload<shared::DeviceMaterial>(
-        device, BufferUse::kTexels, deviceMaterials(scene, table), "materials");
-    deviceScene.lights =
-        Buffer::upload<shared::DeviceLight>(device, BufferUse::kTexels, table.lights, "lights");
+    deviceScene.materials = Buffer::upload<shared::DeviceMaterial>(device, BufferUse::kTexels,
+                                                                   deviceMaterials(scene), "materials");
+    deviceScene.emitterRecords =
+        Buffer::upload<shared::DeviceEmitter>(device, BufferUse::kTexels, table.records, "emitters");
     deviceScene.buildSeconds = 0.0;
     deviceScene.uploadSeconds = secondsSince(start);
 }

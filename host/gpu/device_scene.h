@@ -15,8 +15,8 @@
 
 namespace duolux {
 
-/// Scenes with more emitting triangles use next-event estimation instead of the closed form.
-inline constexpr std::size_t kMostClosedFormLights = 16;
+/// Scenes with more emitters use next-event estimation instead of the closed form.
+inline constexpr std::size_t kMostClosedFormEmitters = 16;
 
 /// A scene in device memory, in the records of shaders/shared.
 struct DeviceScene {
@@ -25,21 +25,21 @@ struct DeviceScene {
     Tuning tuning;
     bool hasSmoothNormals = false;
     bool hasPlanes = false;  ///< distances are computed from stored planes, see SurfacePlanes
-    /// Direct light has a closed form: nothing can block an emitter, normals are flat, and there are so few
-    /// emitters that evaluating the formula for each costs no more than sampling one.
+    /// Direct light has a closed form: nothing can block an emitter, surfaces are diffuse and flat, and there
+    /// are so few emitters that evaluating the formula for each costs no more than sampling one.
     bool closedFormApplies = false;
-    std::uint32_t lightCount = 0;    ///< triangles that next-event estimation samples
-    std::uint32_t emitterRoot = 0;   ///< as in shared::PathParams
-    Bounds emitterBounds{};          ///< of the emitters, enlarged by more than the rounding error of a hit
-    double brightestEmission = 0.0;  ///< radiance
+    std::uint32_t emitterChoices = 0;  ///< as in EmitterTable
+    std::uint32_t emitterRoot = 0;     ///< as in shared::PathParams
+    Bounds emitterBounds{};            ///< of the emitters, enlarged by more than the rounding error of a hit
+    double brightestEmission = 0.0;    ///< radiance
     double buildSeconds = 0.0, uploadSeconds = 0.0;
 
     Buffer nodes;  ///< empty with Layout::kRayQuery
-    Buffer triangles, normals, materials, lights, planes;
+    Buffer triangles, normals, materials, emitterRecords, planes;
     std::optional<AccelerationStructure> structure{};  ///< with Layout::kRayQuery
 
     WideBvh tree;                         ///< over all triangles, on the host; empty with Layout::kRayQuery
-    std::vector<std::uint32_t> emitters;  ///< triangles that emit
+    std::vector<std::uint32_t> emitters;  ///< triangles that emit, ascending
 
     /// What the traversal needs.
     std::vector<Binding> treeBindings() const;

@@ -40,25 +40,14 @@ bool anyReachesFar(const Geometry& geometry) {
 
 }  // namespace
 
-SurfacePlanes::SurfacePlanes(const Scene& scene)
-    : geometry_(&scene.geometry), groups_(coincidentGroups(scene.geometry)) {
-    used_ = !groups_.empty() || anyReachesFar(scene.geometry);
-    if (!used_) return;
-    const std::size_t count = geometry_->triangles.size();
-    if (!groups_.empty()) {
-        shared_.resize(count);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (groups_[i] == i) continue;
-            shared_[i] = true;
-            shared_[groups_[i]] = true;
-        }
-    }
-    ranks_.resize(count);
-    std::uint32_t next = 0;
-    for (const bool emits : {true, false}) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (scene.materials[geometry_->materials[i]].emission.any() == emits) ranks_[i] = next++;
-        }
+SurfacePlanes::SurfacePlanes(const Geometry& geometry)
+    : geometry_(&geometry), groups_(coincidentGroups(geometry)) {
+    used_ = !groups_.empty() || anyReachesFar(geometry);
+    shared_.resize(groups_.size());
+    for (std::uint32_t i = 0; i < groups_.size(); ++i) {
+        if (groups_[i] == i) continue;
+        shared_[i] = true;
+        shared_[groups_[i]] = true;
     }
 }
 

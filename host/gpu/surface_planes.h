@@ -9,12 +9,12 @@
 
 namespace duolux {
 
-/// Planes and ranks of a scene's triangles. Kernels need them where distances computed from the corners are
+/// Planes of a scene's triangles. Kernels need them where distances computed from the corners are
 /// too inaccurate: where surfaces coincide, or where triangles are much larger than the rest of the scene,
 /// such as a ground plane that extends to the horizon.
 class SurfacePlanes {
   public:
-    explicit SurfacePlanes(const Scene& scene);
+    explicit SurfacePlanes(const Geometry& geometry);
 
     /// Whether kernels compute distances from planes (shared::kSpecPlanes). If not, the functions below do
     /// not apply.
@@ -27,15 +27,10 @@ class SurfacePlanes {
     /// Whether other triangles coincide with this one.
     bool coincident(std::uint32_t triangle) const { return !shared_.empty() && shared_[triangle]; }
 
-    /// The rank of a triangle among coincident triangles with the same orientation. Emitters come first, so
-    /// that a lamp in the plane of a ceiling is visible; otherwise the order of the scene applies.
-    std::uint32_t rankOf(std::uint32_t triangle) const { return used_ ? ranks_[triangle] : triangle; }
-
   private:
     const Geometry* geometry_;
     std::vector<std::uint32_t> groups_;  ///< as coincidentGroups
     std::vector<bool> shared_;
-    std::vector<std::uint32_t> ranks_;
     bool used_ = false;
 };
 

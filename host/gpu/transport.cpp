@@ -45,6 +45,8 @@ TransportTraits analyseTransport(const Scene& scene) {
         const Reflectance& reflectance = scene.reflectanceOf(scene.materials[i]);
         if (first == nullptr) first = &reflectance;
         traits.oneReflectance = traits.oneReflectance && reflectance == *first;
+        if (scene.materials[i].metallic < 1.0f) traits.lobes |= shared::kLobeDiffuse;
+        if (scene.materials[i].metallic > 0.0f) traits.lobes |= shared::kLobeConductor;
         opaque.add(reflectance.opaque);
         transparent.add(reflectance.transparent);
         identity = identity && reflectance.transparent.m00 == glm::vec3(1.0f);

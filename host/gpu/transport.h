@@ -7,8 +7,8 @@
 
 namespace duolux {
 
-/// Properties of the matrices of a scene's materials. Kernels are specialised for them, so that a scene does
-/// not pay for features it does not use.
+/// Properties of the matrices and the BSDFs of a scene's materials. Kernels are specialised for them, so that
+/// a scene does not pay for features it does not use.
 struct TransportTraits {
     std::uint32_t transmittance = shared::kTransmittanceZero;  ///< one of shared::kTransmittance...
     /// The same for connections from light paths to the camera, where both components count:
@@ -22,6 +22,7 @@ struct TransportTraits {
     bool invisibleCrosses = false;  ///< some T has an entry in row 0
     bool visibleCrosses = false;
     bool oneReflectance = true;  ///< all materials share one O and T
+    std::uint32_t lobes = 0;     ///< sum of shared::kLobe...: what the BSDFs consist of
     /// The largest number of scattering events that can contribute to a pixel: the scene's `bounces`, or
     /// fewer if the matrices end every path earlier (1 for `local` and `one-bounce`).
     std::uint32_t effectiveBounces = 0;

@@ -200,7 +200,7 @@ void readLight(const JsonNode& node, SceneContents& contents) {
     }
     Material& material = light.material;
     material.name = node.path();
-    material.diffuse = glm::vec3(0.0f);
+    material.baseColor = glm::vec3(0.0f);
     readEmission(node.require("emission", R"(expected {"invisible": c, "visible": c})"), material.emission);
     if (const auto reflectance = node.find("reflectance"))
         material.reflectance = readReflectance(*reflectance);

@@ -77,11 +77,20 @@ void readEmission(const JsonNode& node, Emission& emission) {
 }
 
 void readMaterial(const JsonNode& node, Material& material) {
-    node.expectKeys({"diffuse", "emission", "reflectance", "sides"});
-    if (const auto diffuse = node.find("diffuse")) {
-        material.diffuse =
-            diffuse->colour(0.0, 1.0, "expected an albedo: a number or [r, g, b], from 0 to 1");
+    node.expectKeys({"base_color", "diffuse", "emission", "metallic", "reflectance", "roughness", "sides"});
+    const auto baseColor = node.find("base_color"), diffuse = node.find("diffuse");
+    if (baseColor && diffuse) diffuse->fail("is another name of base_color", "expected one of the two");
+    if (const auto& colour = baseColor ? baseColor : diffuse) {
+        material.baseColor =
+            colour->colour(0.0, 1.0, "expected an albedo: a number or [r, g, b], from 0 to 1");
     }
+    const auto readFraction = [&](const char* key, float& field) {
+        if (const auto value = node.find(key)) {
+            field = static_cast<float>(value->number(0.0, 1.0, "expected a number from 0 to 1"));
+        }
+    };
+    readFraction("metallic", material.metallic);
+    readFraction("roughness", material.roughness);
     if (const auto emission = node.find("emission")) readEmission(*emission, material.emission);
     if (const auto reflectance = node.find("reflectance"))
         material.reflectance = readReflectance(*reflectance);

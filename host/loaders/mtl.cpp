@@ -158,8 +158,8 @@ class MtlReader {
             material_.emission = {glm::vec3(colour), glm::vec3(colour), Sides::kFront};
             return;
         }
-        material_.diffuse = glm::vec3(colour);
-        if (glm::any(glm::greaterThan(material_.diffuse, glm::vec3(1.0f)))) {
+        material_.baseColor = glm::vec3(colour);
+        if (glm::any(glm::greaterThan(material_.baseColor, glm::vec3(1.0f)))) {
             if (oddities_[Oddity::kAboveOne].count == 0) aboveOne_ = material_.name;
             oddities_.add(Oddity::kAboveOne, offsetOf(line));
         }

@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/render/pixel_order.h"
+#include "host/scene/emitters.h"
 #include "host/scene/image_plane.h"
 
 namespace duolux {
@@ -69,11 +70,16 @@ float balance(float a, float b) {
 
 class PathTracer {
   public:
-    PathTracer(const EmbreeScene& embree, const Scene& scene, const LightTable& lights)
+    PathTracer(const EmbreeScene& embree, const Scene& scene, const EmitterTable& emitters)
         : embree_(embree),
           scene_(scene),
-          lights_(lights),
-          plane_(imagePlane(scene.camera, scene.render.width, scene.render.height)) {}
+          emitters_(emitters),
+          densities_(scene.materials.size()),
+          plane_(imagePlane(scene.camera, scene.render.width, scene.render.height)) {
+        const std::vector<std::uint32_t> triangles = emittingTriangles(scene);
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            densities_[scene.geometry.materials[triangles[i]]] = emitters.records[i].density;
+    }
 
     vec3 pixel(std::uint32_t pixel) const {
         vec3 sum(0.0f);
@@ -113,18 +119,17 @@ class PathTracer {
             if (front || material.emission.sides == Sides::kBoth) {
                 const vec3& emission =
                     scatterings == 0 ? material.emission.visible : material.emission.invisible;
-                const float ofLight =
-                    lights_.pdfArea[index] * hit.t * hit.t / std::max(std::abs(cosine), 1e-12f);
+                const float ofLight = densities_[index] * hit.t * hit.t / std::max(std::abs(cosine), 1e-12f);
                 radiance += throughput * emission * (scatterings > 0 ? balance(pdf, ofLight) : 1.0f);
             }
             const bool scatters = front || material.sides == Sides::kBoth;
-            if (scatterings >= scene_.render.bounces || !scatters || !(largest(material.diffuse) > 0.0f))
+            if (scatterings >= scene_.render.bounces || !scatters || !(largest(material.baseColor) > 0.0f))
                 return radiance;
             if (!front) normal = -normal;
             const vec3 extent = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
             const vec3 position = origin + direction * hit.t + normal * (largest(extent) * 0x1p-19f);
-            throughput *= material.diffuse;
-            radiance += throughput * directLight({position, normal, material.diffuse}, random);
+            throughput *= material.baseColor;
+            radiance += throughput * directLight({position, normal, material.baseColor}, random);
             const float weight = largest(throughput);
             const float survival =
                 scatterings >= 2 && weight < 1.0f ? std::min(std::sqrt(weight), 0.95f) : 1.0f;
@@ -139,11 +144,11 @@ class PathTracer {
 
     /// Of one emitter, on a surface of albedo 1.
     vec3 directLight(const Vertex& vertex, Random& random) const {
-        if (lights_.lights.empty()) return vec3(0.0f);
-        const auto count = static_cast<std::uint64_t>(lights_.lights.size());
+        if (emitters_.choices == 0) return vec3(0.0f);
+        const std::uint64_t count = emitters_.choices;
         auto index = static_cast<std::size_t>(random.bits() * count >> 32);
-        if (random.uniform() >= lights_.lights[index].threshold) index = lights_.lights[index].alias;
-        const shared::DeviceLight& light = lights_.lights[index];
+        if (random.uniform() >= emitters_.records[index].threshold) index = emitters_.records[index].alias;
+        const shared::DeviceEmitter& light = emitters_.records[index];
         float u = random.uniform();
         float v = random.uniform();
         if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
@@ -153,33 +158,34 @@ class PathTracer {
         vec3 toLight = light.v0 + u * edge1 + v * edge2 - vertex.position;
         const bool front = glm::dot(normal, toLight) < 0.0f;
         toLight += normal * (front ? light.positionError : -light.positionError);
-        const Material& material = scene_.materials[light.material];
         const float cosAtVertex = glm::dot(vertex.normal, toLight);
-        if (cosAtVertex <= 0.0f || !(front || material.emission.sides == Sides::kBoth)) return vec3(0.0f);
+        if (cosAtVertex <= 0.0f || !(front || (light.flags & shared::kEmitterBack) != 0u)) return vec3(0.0f);
         const float distance = glm::length(toLight);
         const vec3 direction = toLight / distance;
         const float cosine = cosAtVertex / distance;
-        const float pdf = lights_.pdfArea[light.material] * distance * distance /
-                          std::max(std::abs(glm::dot(normal, direction)), 1e-12f);
+        const float pdf =
+            light.density * distance * distance / std::max(std::abs(glm::dot(normal, direction)), 1e-12f);
         if (embree_.occluded(vertex.position, direction, distance)) return vec3(0.0f);
-        return material.emission.invisible * (cosine / kPi * balance(pdf, cosine / kPi) / pdf);
+        return light.invisible * (cosine / kPi * balance(pdf, cosine / kPi) / pdf);
     }
 
     const EmbreeScene& embree_;
     const Scene& scene_;
-    const LightTable& lights_;
+    const EmitterTable& emitters_;
+    std::vector<float> densities_;  // with which points of a material's emitters are sampled, m^-2
     ImagePlane plane_;
 };
 
 }  // namespace
 
-RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const LightTable& lights) {
-    const auto own = [](const Material& m) { return m.reflectance.has_value(); };
+RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const EmitterTable& emitters) {
+    const auto own = [](const Material& m) { return m.reflectance.has_value() || m.metallic > 0.0f; };
     if (!scene.geometry.normals.empty() || std::any_of(scene.materials.begin(), scene.materials.end(), own)) {
-        throw UsageError(fmt::format("{}: Embree's path tracer knows flat normals and `global` alone",
-                                     scene.source.string()));
+        throw UsageError(
+            fmt::format("{}: Embree's path tracer supports only flat normals, diffuse surfaces and `global`",
+                        scene.source.string()));
     }
-    const PathTracer tracer(embree, scene, lights);
+    const PathTracer tracer(embree, scene, emitters);
     RadianceImage image{scene.render.width, scene.render.height, {}, {}};
     const std::size_t pixels = std::size_t{image.width} * image.height;
     image.invisible.resize(pixels);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/film/image.h"
-#include "host/gpu/lights.h"
+#include "host/gpu/emitter_table.h"
 #include "host/peers/embree_scene.h"
 #include "host/scene/scene.h"
 
@@ -12,6 +12,6 @@ namespace duolux {
 /// importance sampling with the balance heuristic are the same; random numbers are cheaper. Renders the
 /// visible component of the image. Throws UsageError for unsupported features: smooth normals, materials with
 /// their own reflectance.
-RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const LightTable& lights);
+RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const EmitterTable& emitters);
 
 }  // namespace duolux

@@ -25,6 +25,7 @@
 #include "host/peers/embree_path_tracer.h"
 #include "host/peers/embree_scene.h"
 #include "host/render/render.h"
+#include "host/scene/emitters.h"
 #include "host/view/load.h"
 
 namespace {
@@ -54,7 +55,7 @@ class Pair {
         scene_.render.bounces = options.bounces;
         deviceScene_ = std::make_unique<DeviceScene>(uploadScene(device, scene_));
         embree_ = std::make_unique<EmbreeScene>(scene_.geometry);
-        lights_ = buildLightTable(scene_, false);
+        emitters_ = buildEmitterTable(scene_, emittingTriangles(scene_), false);
         addRays(name);
         addRender(name);
         addBuild(name);
@@ -66,7 +67,7 @@ class Pair {
     /// Mean radiance of the picture by Duolux and by Embree.
     void compareImages() const {
         const std::vector<glm::vec3> ours = render(device_, scene_).film.resolve().visible;
-        const std::vector<glm::vec3> theirs = renderByEmbree(*embree_, scene_, lights_).visible;
+        const std::vector<glm::vec3> theirs = renderByEmbree(*embree_, scene_, emitters_).visible;
         glm::dvec3 a(0.0), b(0.0);
         for (std::size_t i = 0; i < ours.size(); ++i)
             a += glm::dvec3(ours[i]), b += glm::dvec3(theirs[i]);
@@ -110,7 +111,7 @@ class Pair {
                 const RenderStatistics s = render(device_, scene_).statistics;
                 return BenchTimes{s.renderSeconds, s.deviceSeconds};
             },
-            [this] { return timed([&] { renderByEmbree(*embree_, scene_, lights_); }); });
+            [this] { return timed([&] { renderByEmbree(*embree_, scene_, emitters_); }); });
     }
 
     void addBuild(const std::string& name) {
@@ -127,7 +128,7 @@ class Pair {
     const PeerOptions& options_;
     std::unique_ptr<DeviceScene> deviceScene_;
     std::unique_ptr<EmbreeScene> embree_;
-    LightTable lights_;
+    EmitterTable emitters_;
     std::vector<RaySet> sets_;
     std::vector<std::unique_ptr<TraceKernel>> kernels_;
     std::vector<float> distances_;

@@ -42,7 +42,7 @@ class Gatherer {
                 fmt::format("{}: direct light has no closed form in this scene; it requires surfaces that "
                             "cast no shadows "
                             "(`local`, `shadowless`), flat normals, and 1 to {} emitting triangles",
-                            context_.scene.source.string(), kMostClosedFormLights));
+                            context_.scene.source.string(), kMostClosedFormEmitters));
         }
         // With several bounces, direct light contributes little of the noise: on the Cornell box,
         // `shadowless` in closed form has 7 % less variance and takes 10 % longer.

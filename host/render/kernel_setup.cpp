@@ -36,7 +36,8 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
         kUndisplayedWeight;
     params.rowWeight = rows / (rows.x + rows.y);
     params.display = scene.display;
-    params.lightCount = deviceScene.lightCount;
+    params.emitterCount = deviceScene.emitterChoices;
+    params.emittingTriangles = static_cast<std::uint32_t>(deviceScene.emitters.size());
     params.emitterRoot = deviceScene.emitterRoot;
     params.emitterLower = deviceScene.emitterBounds.lower;
     params.emitterUpper = deviceScene.emitterBounds.upper;
@@ -54,7 +55,7 @@ std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer&
     std::vector<Binding> bindings = deviceScene.treeBindings();
     bindings.push_back({shared::kBindingNormals, &deviceScene.normals});
     bindings.push_back({shared::kBindingMaterials, &deviceScene.materials});
-    bindings.push_back({shared::kBindingLights, &deviceScene.lights});
+    bindings.push_back({shared::kBindingEmitters, &deviceScene.emitterRecords});
     bindings.push_back({shared::kBindingParams, &params});
     bindings.push_back({shared::kBindingPlanes, &deviceScene.planes});
     return bindings;
@@ -74,6 +75,7 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
             {shared::kSpecInvisibleCrosses, traits.invisibleCrosses},
             {shared::kSpecVisibleCrosses, traits.visibleCrosses},
             {shared::kSpecOneReflectance, traits.oneReflectance},
+            {shared::kSpecLobes, traits.lobes},
             {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecPlanes, deviceScene.hasPlanes},

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, bool closedForm) {
     std::uint32_t directLight = closedForm ? shared::kDirectLightClosedForm : shared::kDirectLightSampled;
-    if (deviceScene.lightCount == 0) directLight = shared::kDirectLightNone;
+    if (deviceScene.emitterChoices == 0) directLight = shared::kDirectLightNone;
     std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene);
     constants.push_back({shared::kSpecDirectLight, directLight});
     constants.push_back({shared::kSpecHasEmitters, !deviceScene.emitters.empty()});

@@ -55,7 +55,7 @@ class Shooter {
         RenderStatistics& statistics = context_.statistics;
         context_.begin();
         // Where nothing emits every path is a dark one.
-        if (context_.deviceScene.lightCount == 0) {
+        if (context_.deviceScene.emitterChoices == 0) {
             context_.film.countLightPaths(context_.samplesTotal());
             statistics.samples = context_.samplesTotal();
         } else if (context_.control.resume == nullptr) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "host/scene/emitters.h"
+
 namespace duolux {
 
 namespace {
@@ -50,9 +52,8 @@ MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& a
 EmitterSummary summariseEmitters(const Scene& scene) {
     EmitterSummary summary;
     const Geometry& geometry = scene.geometry;
-    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+    for (const std::uint32_t i : emittingTriangles(scene)) {
         const Emission& emission = scene.materials[geometry.materials[i]].emission;
-        if (!emission.any()) continue;
         const double area = areaOf(geometry, geometry.triangles[i]);
         const double sides = emission.sides == Sides::kBoth ? 2.0 : 1.0;
         ++summary.triangles;
@@ -67,7 +68,7 @@ bool anySurfaceScatters(const Scene& scene) {
     return std::ranges::any_of(scene.geometry.materials, [&](std::uint32_t index) {
         const Material& material = scene.materials[index];
         const LightMatrix& o = scene.reflectanceOf(material).opaque;
-        const glm::vec3 scattered = material.diffuse * (o.m00 + o.m01 + o.m10 + o.m11);
+        const glm::vec3 scattered = meanAlbedo(material) * (o.m00 + o.m01 + o.m10 + o.m11);
         return glm::any(glm::greaterThan(scattered, glm::vec3(0.0f)));
     });
 }
@@ -78,7 +79,8 @@ bool seriesMayGrow(const Scene& scene) {
         used[material] = true;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        if (used[i] && materialEnergy(scene.reflectanceOf(material), material.diffuse).grows()) return true;
+        if (used[i] && materialEnergy(scene.reflectanceOf(material), meanAlbedo(material)).grows())
+            return true;
     }
     return false;
 }
@@ -89,7 +91,7 @@ glm::dvec3 meanAlbedo(const Scene& scene) {
     const Geometry& geometry = scene.geometry;
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
         const double area = areaOf(geometry, geometry.triangles[i]);
-        sum += area * glm::dvec3(scene.materials[geometry.materials[i]].diffuse);
+        sum += area * glm::dvec3(meanAlbedo(scene.materials[geometry.materials[i]]));
         totalArea += area;
     }
     return sum / totalArea;

@@ -35,6 +35,10 @@ void addTo(Hasher& hasher, const glm::vec3& value) {
         hasher.add(value[i]);
 }
 
+void addTo(Hasher& hasher, const float& value) {
+    hasher.add(value);
+}
+
 void addTo(Hasher& hasher, const Sides& value) {
     hasher.add(static_cast<std::uint32_t>(value));
 }

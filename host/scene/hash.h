@@ -11,6 +11,7 @@ namespace duolux {
 std::string hashScene(const Scene& scene);
 
 void addTo(Hasher& hasher, const glm::vec3& value);
+void addTo(Hasher& hasher, const float& value);
 void addTo(Hasher& hasher, const Sides& value);
 void addTo(Hasher& hasher, const Reflectance& value);
 void addTo(Hasher& hasher, const Emission& value);

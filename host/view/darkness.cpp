@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "host/view/default_light.h"
+#include "host/scene/emitters.h"
 #include "host/view/frame_camera.h"
 #include "host/view/look_through.h"
 

@@ -153,11 +153,6 @@ void calibrate(Scene& scene, std::size_t firstTriangle, float wanted) {
 
 }  // namespace
 
-bool anyEmitter(const Scene& scene) {
-    return std::any_of(scene.geometry.materials.begin(), scene.geometry.materials.end(),
-                       [&](std::uint32_t material) { return scene.materials[material].emission.any(); });
-}
-
 float brightnessFor(const Camera& camera, float aspect, const Surface& surface,
                     const Illumination& illumination, const ViewSamples& samples) {
     double sum = 0.0, count = 0.0;
@@ -194,7 +189,7 @@ void addDefaultLight(Scene& scene, const Surface& surface) {
     const float area = glm::length(glm::cross(place->rectangle.edge1, place->rectangle.edge2));
     Material material;
     material.name = "default light";
-    material.diffuse = glm::vec3(0.0f);
+    material.baseColor = glm::vec3(0.0f);
     material.emission.invisible = glm::vec3(kWhite * glm::pi<float>() * squaredDistance / area);
     const std::size_t first = scene.geometry.triangles.size();
     appendRectangle(scene, place->rectangle, material);

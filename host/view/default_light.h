@@ -5,7 +5,6 @@
 namespace duolux {
 
 /// Whether any triangle has a material that emits.
-bool anyEmitter(const Scene& scene);
 
 /// How brightly the emitters light the surfaces that a camera sees, or the whole surface if that is brighter:
 /// the mean, up to 1, of the radiance that white would reflect plus the emitted radiance.

@@ -36,7 +36,7 @@ float SmallRandom::next() {
 }
 
 bool scatters(const Material& material, bool front) {
-    return (front || material.sides == Sides::kBoth) && mean(material.diffuse) > 0.0f;
+    return (front || material.sides == Sides::kBoth) && mean(meanAlbedo(material)) > 0.0f;
 }
 
 SurfacePoint pointOf(const Surface& surface, const glm::vec3& origin, const glm::vec3& direction,
@@ -102,7 +102,7 @@ float Illumination::onWhite(const SurfacePoint& point, std::uint32_t seed, int p
             if (!hit) break;
             const Material& material = surface_.materialOf(hit->triangle);
             if (!scatters(material, hit->front)) break;
-            weight *= mean(material.diffuse);
+            weight *= mean(meanAlbedo(material));
             at = pointOf(surface_, origin, direction, *hit);
         }
     }

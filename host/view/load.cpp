@@ -8,6 +8,7 @@
 #include "host/base/memory.h"
 #include "host/base/printable.h"
 #include "host/loaders/scene_file.h"
+#include "host/scene/emitters.h"
 #include "host/scene/energy.h"
 #include "host/scene/hash.h"
 #include "host/scene/mesh.h"

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "host/base/parallel.h"
+#include "host/scene/emitters.h"
 
 namespace duolux {
 
@@ -111,10 +112,7 @@ class Simplifier {
         if (geometry.triangles.size() > kMostExact) {
             framed_ = cubeAround(surface, 0, framedTriangles_);
             others_ = cubeAround(surface, framedTriangles_, geometry.triangles.size());
-            const auto emitters =
-                std::count_if(geometry.materials.begin(), geometry.materials.end(),
-                              [&](std::uint32_t m) { return surface.scene().materials[m].emission.any(); });
-            keepEmitters_ = static_cast<std::size_t>(emitters) <= kMostEmitters;
+            keepEmitters_ = emittingTriangles(surface.scene()).size() <= kMostEmitters;
         }
     }
 
@@ -151,7 +149,7 @@ class Simplifier {
         std::unordered_set<glm::uvec3, HashTriple> seen;
         for (std::size_t i = first; i < end; ++i) {
             const glm::uvec3 t = geometry.triangles[i];
-            if (keepEmitters_ && scene.materials[geometry.materials[i]].emission.any()) {
+            if (keepEmitters_ && emits(scene, i)) {
                 addExact(triangles, i);
                 continue;
             }

@@ -11,21 +11,21 @@ layout(constant_id = kSpecTeamSize) const uint kTeamSize = 8u;
 
 layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normalTexels;
 layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
-layout(binding = kBindingLights, rgba32ui) uniform readonly uimageBuffer lightTexels;
+layout(binding = kBindingEmitters, rgba32ui) uniform readonly uimageBuffer emitterTexels;
 layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 
 #include "shaders/kernels/layout.glsl"
 #include "shaders/lib/camera.glsl"
-#include "shaders/lib/lights.glsl"
+#include "shaders/lib/emitter.glsl"
 #include "shaders/lib/sampler.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
 
 uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
 uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
-uvec4 fetchLightTexel(uint index) { return imageLoad(lightTexels, int(index)); }
+uvec4 fetchEmitterTexel(uint index) { return imageLoad(emitterTexels, int(index)); }
 uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
 
 LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }

@@ -15,6 +15,7 @@ struct SurfacePoint {
     vec3 shadingNormal;    // unit, on that side
     uint triangle;         // index in device memory
     uint behindOthers;     // 1: coincident surfaces lie before this one on that side
+    float offset;          // distance of the position from the surface
 };
 
 // `normal`: unit, on the triangle's front side; `triangle`: its index in device memory.
@@ -28,7 +29,8 @@ SurfacePoint surfacePoint(Triangle tri, uint triangle, vec2 barycentric, vec3 no
         vec3 smoothed = shadingNormal(triangle, barycentric);
         point.shadingNormal = dot(smoothed, point.geometricNormal) < 0.0 ? -smoothed : smoothed;
     }
-    point.position = pointOnTriangle(tri, barycentric) + point.geometricNormal * pointError(tri);
+    point.offset = pointError(tri);
+    point.position = pointOnTriangle(tri, barycentric) + point.geometricNormal * point.offset;
     point.triangle = triangle;
     point.behindOthers = 0u;
     return point;
@@ -40,25 +42,34 @@ SurfacePoint placedByPlane(SurfacePoint point, vec3 at, bool behindOthers) {
     if (!kPlanes) return point;
     Plane plane = fetchPlane(point.triangle);
     vec3 onSurface = ontoPlane(plane, at);
-    point.position = behindOthers ? onSurface : onSurface + point.geometricNormal * planeError(plane, onSurface);
+    point.offset = behindOthers ? 0.0 : planeError(plane, onSurface);
+    point.position = behindOthers ? onSurface : onSurface + point.geometricNormal * point.offset;
     point.behindOthers = behindOthers ? 1u : 0u;
     return point;
 }
 
-// The start of a ray: its origin, and the (t, order) after which it meets surfaces.
-struct RayBegin {
+// A straight part of a path, from one scattering event to the next: a ray that meets surfaces after (t, order), which is
+// where it starts, or the last surface that it has crossed.
+struct Segment {
     vec3 origin;
+    vec3 direction;
     float t;
     uint order;
 };
 
-// Starts a ray that leaves a surface on the side of the point's normals. If coincident surfaces lie on this side, the
-// ray crosses them.
-RayBegin leaveSurface(SurfacePoint point, vec3 direction) {
-    if (!kPlanes || point.behindOthers == 0u) return RayBegin(point.position, 0.0, kNoTriangle);
-    Plane plane = fetchPlane(point.triangle);
-    return RayBegin(point.position, planeDistance(plane, point.position, direction),
-                    orderOfSurface(fetchTriangle(point.triangle).primitive, dot(plane.normal, direction) < 0.0));
+// A ray that leaves a surface, on the side of the point's normals or on the other side. Coincident surfaces that lie on
+// its side are still to be crossed.
+Segment leaveSurface(SurfacePoint point, vec3 direction) {
+    bool through = dot(point.geometricNormal, direction) < 0.0;
+    vec3 origin = through ? point.position - 2.0 * point.offset * point.geometricNormal : point.position;
+    Segment segment = Segment(origin, direction, 0.0, kNoTriangle);
+    if (kPlanes && (through || point.behindOthers != 0u)) {
+        Plane plane = fetchPlane(point.triangle);
+        segment.origin = point.position;
+        segment.t = planeDistance(plane, point.position, direction);
+        segment.order = orderOfSurface(fetchTriangle(point.triangle).primitive, dot(plane.normal, direction) < 0.0);
+    }
+    return segment;
 }
 
 // With a shading normal Ns, the path tracer uses |wi . Ns| in place of |wi . Ng| (wi points to the light). The adjoint
@@ -69,19 +80,6 @@ float shadingAdjoint(SurfacePoint point, vec3 wi) {
     float cosShading = dot(point.shadingNormal, wi);
     float cosGeometric = dot(point.geometricNormal, wi);
     return cosShading > 0.0 && cosGeometric > 0.0 ? cosShading / cosGeometric : 0.0;
-}
-
-// Transforms a unit direction to a frame whose z axis is the unit vector `normal`.
-vec3 toFrame(vec3 normal, vec3 direction) {
-    vec3 tangent, bitangent;
-    orthonormalBasis(normal, tangent, bitangent);
-    return vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
-}
-
-vec3 fromFrame(vec3 normal, vec3 local) {
-    vec3 tangent, bitangent;
-    orthonormalBasis(normal, tangent, bitangent);
-    return normalize(tangent * local.x + bitangent * local.y + normal * local.z);
 }
 
 #endif

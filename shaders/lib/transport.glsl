@@ -6,6 +6,7 @@
 
 #include "shaders/lib/light_matrix.glsl"
 #include "shaders/lib/material.glsl"
+#include "shaders/shared/path_layout.h"
 
 layout(constant_id = kSpecTransmittance) const uint kTransmittance = 2u;
 layout(constant_id = kSpecSecondColumn) const bool kSecondColumn = true;

@@ -4,6 +4,8 @@
 #define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 
 #include "shaders/shared/camera_layout.h"
+#include "shaders/shared/emitter_layout.h"
+#include "shaders/shared/material_layout.h"
 #include "shaders/shared/types.h"
 
 DUOLUX_BEGIN
@@ -16,7 +18,7 @@ DUOLUX_CONST uint kBindingNodes = 0u;      // WideNode as texels or storage, or 
 DUOLUX_CONST uint kBindingTriangles = 1u;  // DevicePair as texels or storage
 DUOLUX_CONST uint kBindingNormals = 2u;    // texels: DeviceNormals
 DUOLUX_CONST uint kBindingMaterials = 3u;  // texels: DeviceMaterial
-DUOLUX_CONST uint kBindingLights = 4u;     // texels: DeviceLight
+DUOLUX_CONST uint kBindingEmitters = 4u;   // texels: DeviceEmitter
 DUOLUX_CONST uint kBindingParams = 5u;     // uniform: PathParams
 DUOLUX_CONST uint kBindingPixels = 6u;     // texels: the pixel indices of four slots each
 DUOLUX_CONST uint kBindingResults = 7u;    // storage: SlotResult
@@ -73,7 +75,8 @@ struct PathParams {
     vec2 rowWeight;  // weights of the components (invisible, visible) of a pixel in the distribution of
                      // work; their sum is 1
     vec2 display;    // the row d of eq. 8
-    uint lightCount;
+    uint emitterCount;      // emitters that next-event estimation and shooting choose from
+    uint emittingTriangles;  // triangles with a rank below this emit
     uint emitterRoot;   // index of the root node of the tree over emitters or, with the driver's tree, of the
                         // first emitting triangle; 0: there is none
     vec3 emitterLower;  // bounds of the emitters, slightly enlarged
@@ -114,50 +117,17 @@ struct SlotResult {
 
 // Records fetched as texels of 4 x uint32.
 DUOLUX_CONST uint kNormalTexels = 1u;  // three octahedral 2 x snorm16 unit vectors, one per vertex
-DUOLUX_CONST uint kMaterialTexels = 11u;
-DUOLUX_CONST uint kLightTexels = 4u;
-
-DUOLUX_CONST uint kMaterialTwoSided = 1u;  // f_opaque acts on both sides
-DUOLUX_CONST uint kMaterialEmitsFront = 2u;
-DUOLUX_CONST uint kMaterialEmitsBack = 4u;
 
 #ifdef __cplusplus
 static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
 static_assert(offsetof(PathParams, opaque) == 84 && offsetof(PathParams, rowWeight) == 180);
-static_assert(offsetof(PathParams, emitterRoot) == 200 && sizeof(PathParams) == 228);
-
-struct DeviceMaterial {
-    vec3 diffuse;
-    uint flags;
-    vec3 invisibleEmission;
-    float lightPdfArea;  // density with which next-event estimation samples a point of this emitter, m^-2
-    vec3 visibleEmission;
-    float padding;
-    vec4 opaque[4];  // m00 m01 m10 m11 in xyz
-    vec4 transparent[4];
-};
-static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16);
+static_assert(offsetof(PathParams, emitterRoot) == 204 && sizeof(PathParams) == 232);
 
 struct DeviceNormals {
     uint octahedral[3];
     uint unused;
 };
 static_assert(sizeof(DeviceNormals) == kNormalTexels * 16);
-
-// An emitting triangle with its entry in the alias table (Walker 1974; Vose 1991).
-struct DeviceLight {
-    vec3 v0;
-    uint material;
-    vec3 v1;
-    float positionError;  // bound on the rounding error of a point on the triangle, as for hits
-    vec3 v2;
-    uint triangle;    // index of the triangle in device memory, kSpecPlanes only
-    float threshold;  // probability of keeping this entry of the alias table
-    uint alias;       // the entry to use otherwise
-    uint primitive;   // rank
-    uint coincident;  // 1 if other surfaces coincide with this one, kSpecPlanes only
-};
-static_assert(sizeof(DeviceLight) == kLightTexels * 16);
 #endif
 
 DUOLUX_END

@@ -10,6 +10,7 @@
 #include "host/peers/embree_path_tracer.h"
 #include "host/peers/embree_scene.h"
 #include "host/view/load.h"
+#include "host/scene/emitters.h"
 #include "tests/reference/tracer.h"
 #include "tests/support/agreement.h"
 #include "tests/support/cornell.h"
@@ -38,10 +39,10 @@ TEST(Embree, PathTracerMatchesTheReference) {
         std::ranges::fill(pixel.variance[0], 0.0);
     }
     const EmbreeScene embree(scene.geometry);
-    const LightTable lights = buildLightTable(scene, false);
+    const EmitterTable emitters = buildEmitterTable(scene, emittingTriangles(scene), false);
     std::vector<RadianceImage> renders;
     for (scene.render.seed = 1; scene.render.seed <= 16; ++scene.render.seed)
-        renders.push_back(renderByEmbree(embree, scene, lights));
+        renders.push_back(renderByEmbree(embree, scene, emitters));
     const Agreement agreement = judge(renders, expected);
     EXPECT_TRUE(agreement.agrees) << agreement.report;
 }

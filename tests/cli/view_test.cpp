@@ -137,7 +137,7 @@ TEST_F(ViewCommand, InfoShowsTheCameraAsASceneFileGivesIt) {
         EXPECT_TRUE(info.contains(key)) << key;
     }
     EXPECT_EQ(info["materials"][0]["name"], "white");
-    EXPECT_EQ(info["materials"][0]["diffuse"][0], 0.8);
+    EXPECT_EQ(info["materials"][0]["base_color"][0], 0.8);
 }
 
 TEST_F(ViewCommand, VectorsMayBeThreeWords) {

@@ -45,7 +45,7 @@ class Tracer {
         : triangles_(scene.geometry), materialOf_(scene.geometry.materials), settings_(settings) {
         for (const Material& material : scene.materials) {
             const Reflectance& reflectance = scene.reflectanceOf(material);
-            surfaces_.push_back({scaled(material.diffuse, channelsOf(reflectance.opaque)),
+            surfaces_.push_back({scaled(material.baseColor, channelsOf(reflectance.opaque)),
                                  channelsOf(reflectance.transparent),
                                  channelsOf(material.emission.invisible, material.emission.visible),
                                  material.sides == Sides::kBoth, material.emission.sides == Sides::kBoth});

@@ -1,67 +1,140 @@
-// Ordinary BSDFs, in the shading frame.
+// BSDFs: both lobes and their mixtures, with shading normals, in both modes.
 #include "shaders/lib/bsdf.glsl"
 
-vec3 above(vec3 w) { return vec3(w.xy, abs(w.z)); }
+// Frames of a flat surface, and of one whose shading normal is up to 40 degrees off.
+BsdfFrame flatFrame() {
+    vec3 n = randomDirection();
+    return BsdfFrame(n, n);
+}
+BsdfFrame smoothFrame() {
+    vec3 n = randomDirection();
+    return BsdfFrame(normalize(n + 0.6 * randomDirection()), n);
+}
 
-Bsdf randomBsdf() { return Bsdf(randomVec3(0.0, 1.0)); }
+vec3 above(vec3 normal) {
+    vec3 w = randomDirection();
+    return dot(w, normal) < 0.0 ? -w : w;
+}
+
+// Diffuse, metallic, or a mixture.
+Bsdf randomBsdf() {
+    float metallic = testIndex() % 3u == 0u ? 0.0 : (testIndex() % 3u == 1u ? 1.0 : randomFloat(0.0, 1.0));
+    return Bsdf(randomVec3(0.0, 1.0), metallic, randomFloat(0.1, 1.0));
+}
+
+uint randomMode() { return randomUint() & 1u; }
 
 // Helmholtz: f(wo, wi) = f(wi, wo).
 TEST(IsReciprocal) {
     Bsdf bsdf = randomBsdf();
-    vec3 wo = above(randomDirection());
-    vec3 wi = above(randomDirection());
-    EXPECT_EQ(bsdfEvaluate(bsdf, wo, wi), bsdfEvaluate(bsdf, wi, wo));
+    BsdfFrame frame = flatFrame();
+    vec3 wo = above(frame.geometric);
+    vec3 wi = above(frame.geometric);
+    uint mode = randomMode();
+    vec3 f = bsdfEvaluate(bsdf, frame, wo, wi, mode);
+    EXPECT_NEAR(f, bsdfEvaluate(bsdf, frame, wi, wo, mode), 2e-4 * maxComponent(f));
+}
+
+// Importance mode is the adjoint: view and light exchange their places in the same function.
+TEST(BothModesEvaluateOneFunction) {
+    Bsdf bsdf = randomBsdf();
+    BsdfFrame frame = smoothFrame();
+    vec3 view = above(frame.geometric);
+    vec3 light = above(frame.geometric);
+    EXPECT_EQ(bsdfEvaluate(bsdf, frame, view, light, kModeRadiance),
+              bsdfEvaluate(bsdf, frame, light, view, kModeImportance));
 }
 
 // Lambert's law: a perfectly diffuse surface of albedo rho has f = rho / pi, in each channel by itself.
 TEST(DiffuseIsLamberts) {
-    Bsdf bsdf = randomBsdf();
-    vec3 f = bsdfEvaluate(bsdf, above(randomDirection()), above(randomDirection()));
-    EXPECT_ULP(f, bsdf.diffuse / 3.14159265, 4.0);
+    Bsdf bsdf = Bsdf(randomVec3(0.0, 1.0), 0.0, randomFloat(0.0, 1.0));
+    BsdfFrame frame = flatFrame();
+    vec3 f = bsdfEvaluate(bsdf, frame, above(frame.geometric), above(frame.geometric), randomMode());
+    EXPECT_ULP(f, bsdf.baseColor / 3.14159265, 4.0);
 }
 
 TEST(NothingIsBelowTheHorizon) {
     Bsdf bsdf = randomBsdf();
-    vec3 wo = above(randomDirection());
-    vec3 below = -above(randomDirection());
-    EXPECT_EQ(bsdfPdf(bsdf, wo, below), 0.0);
-    EXPECT_GT(bsdfPdf(bsdf, wo, -below), 0.0);
-    EXPECT_GE(bsdfSample(bsdf, wo, randomVec2()).wi.z, 0.0);
+    BsdfFrame frame = smoothFrame();
+    vec3 wo = above(frame.geometric);
+    vec3 below = -above(frame.geometric);
+    uint mode = randomMode();
+    EXPECT_EQ(bsdfEvaluate(bsdf, frame, wo, below, mode), vec3(0.0));
+    BsdfSample s = bsdfSample(bsdf, frame, wo, randomFloat(0.0, 1.0), randomVec2(), mode);
+    EXPECT_TRUE(s.pdf == 0.0 || dot(s.wi, frame.geometric) > 0.0);
+    // Light from behind the shading normal reaches nothing.
+    vec3 light = above(frame.geometric);
+    light -= 1.2 * max(dot(light, frame.shading), 0.0) * frame.shading;
+    EXPECT_EQ(bsdfEvaluate(bsdf, frame, wo, normalize(light), kModeRadiance), vec3(0.0));
 }
 
 // The pdf and the weight of a sample agree with bsdfPdf and bsdfEvaluate for its direction.
 TEST(SampleAgreesWithPdfAndEvaluation) {
     Bsdf bsdf = randomBsdf();
-    vec3 wo = above(randomDirection());
-    BsdfSample s = bsdfSample(bsdf, wo, randomVec2());
-    EXPECT_ULP(s.pdf, bsdfPdf(bsdf, wo, s.wi), 4.0);
-    EXPECT_ULP(s.weight * s.pdf, bsdfEvaluate(bsdf, wo, s.wi) * s.wi.z, 6.0);
+    BsdfFrame frame = smoothFrame();
+    vec3 wo = above(frame.geometric);
+    uint mode = randomMode();
+    BsdfSample s = bsdfSample(bsdf, frame, wo, randomFloat(0.0, 1.0), randomVec2(), mode);
+    float pdf = bsdfPdf(bsdf, frame, wo, s.wi, mode);
+    vec3 value = bsdfEvaluate(bsdf, frame, wo, s.wi, mode) * bsdfCosine(frame, s.wi, mode);
+    EXPECT_TRUE(s.pdf == 0.0 || abs(s.pdf - pdf) <= 1e-4 * pdf);
+    EXPECT_NEAR(s.weight * pdf, value, 1e-4 * maxComponent(value) + 1e-7);
 }
 
-// By Malley's method, so that the square's stratification is that of directions.
+// By Malley's method, around the shading normal from the camera, around the geometric normal from the emitters.
 TEST(DiffuseSamplesAreMalleys) {
+    Bsdf bsdf = Bsdf(vec3(0.5), 0.0, 0.5);
+    BsdfFrame frame = smoothFrame();
     vec2 u = randomVec2();
-    BsdfSample s = bsdfSample(randomBsdf(), above(randomDirection()), u);
-    EXPECT_NEAR(dot(s.wi.xy, s.wi.xy), u.x, 1.5e-6);
-    EXPECT_EQ(s.wi, cosineHemisphere(u));
+    uint mode = randomMode();
+    BsdfSample s = bsdfSample(bsdf, frame, above(frame.geometric), 0.5, u, mode);
+    float cosine = dot(s.wi, mode == kModeRadiance ? frame.shading : frame.geometric);
+    EXPECT_NEAR(cosine * cosine, 1.0 - u.x, 2e-6);
 }
 
-// At the ends of the square: straight up, and at the horizon with a density that is small but not zero.
-TEST_N(SampleAgreesAtTheEnds, 4) {
-    float last = 1.0 - 1.0 / 16777216.0;
-    vec2 u = vec2((testIndex() & 1u) == 0u ? 0.0 : last, (testIndex() & 2u) == 0u ? 0.0 : last);
-    Bsdf bsdf = Bsdf(vec3(0.25, 0.5, 1.0));
-    BsdfSample s = bsdfSample(bsdf, vec3(0.0, 0.0, 1.0), u);
-    EXPECT_GT(s.pdf, 0.0);
-    EXPECT_ULP(s.pdf, bsdfPdf(bsdf, vec3(0.0, 0.0, 1.0), s.wi), 4.0);
-    EXPECT_ULP(s.weight * s.pdf, bsdfEvaluate(bsdf, vec3(0.0, 0.0, 1.0), s.wi) * s.wi.z, 6.0);
-}
-
-TEST(AlbedoAndWeightConserveEnergy) {
+// Whatever f is, wherever it is above 0 a sample can come: in importance mode also below the shading normal's horizon.
+TEST(DensityIsPositiveWhereLightGoes) {
     Bsdf bsdf = randomBsdf();
-    vec3 wo = above(randomDirection());
-    EXPECT_LE(bsdfAlbedo(bsdf, wo), vec3(1.0));
-    EXPECT_GE(bsdfAlbedo(bsdf, wo), vec3(0.0));
-    EXPECT_EQ(bsdfAlbedo(Bsdf(vec3(0.0)), wo), vec3(0.0));
-    EXPECT_EQ(bsdfSample(Bsdf(vec3(0.0)), wo, randomVec2()).weight, vec3(0.0));
+    BsdfFrame frame = smoothFrame();
+    vec3 wo = above(frame.geometric);
+    vec3 wi = above(frame.geometric);
+    uint mode = randomMode();
+    vec3 f = bsdfEvaluate(bsdf, frame, wo, wi, mode);
+    EXPECT_TRUE(maxComponent(f) == 0.0 || bsdfPdf(bsdf, frame, wo, wi, mode) > 0.0);
+}
+
+Bsdf mirror() { return Bsdf(vec3(0.25, 0.5, 1.0), 1.0, 0.0); }
+
+// A mirror has one direction, and its Fresnel reflectance: the base colour at normal incidence, all at grazing.
+TEST(MirrorReflects) {
+    BsdfFrame frame = flatFrame();
+    vec3 wo = above(frame.geometric);
+    uint mode = randomMode();
+    BsdfSample s = bsdfSample(mirror(), frame, wo, 0.999, randomVec2(), mode);
+    float cosine = max(dot(wo, frame.geometric), 1e-3);
+    EXPECT_NEAR(s.wi, 2.0 * dot(wo, frame.geometric) * frame.geometric - wo, 3e-3);
+    EXPECT_EQ(s.pdf, kDeltaPdf);
+    vec3 fresnel = mirror().baseColor + (1.0 - mirror().baseColor) * pow(1.0 - cosine, 5.0);
+    EXPECT_NEAR(s.weight, fresnel, 1e-5);
+    EXPECT_EQ(bsdfEvaluate(mirror(), frame, wo, s.wi, mode), vec3(0.0));
+}
+
+// With equal parts of diffuse and mirror both are chosen, and the weights make up for the choice.
+TEST(MirrorAndDiffuseShareTheirChoice) {
+    Bsdf bsdf = Bsdf(vec3(1.0), 0.5, 0.0);
+    BsdfFrame frame = flatFrame();
+    vec3 wo = above(frame.geometric);
+    BsdfSample s = bsdfSample(bsdf, frame, wo, randomFloat(0.0, 1.0), randomVec2(), kModeRadiance);
+    EXPECT_NEAR(s.weight, vec3(1.0), 2e-3);
+}
+
+TEST(AlbedoConservesEnergy) {
+    Bsdf bsdf = randomBsdf();
+    BsdfFrame frame = smoothFrame();
+    vec3 wo = above(frame.geometric);
+    EXPECT_LE(bsdfAlbedo(bsdf, frame, wo), vec3(1.0));
+    EXPECT_GE(bsdfAlbedo(bsdf, frame, wo), vec3(0.0));
+    Bsdf black = Bsdf(vec3(0.0), 0.0, 0.5);
+    EXPECT_EQ(bsdfAlbedo(black, frame, wo), vec3(0.0));
+    EXPECT_EQ(bsdfSample(black, frame, wo, 0.5, randomVec2(), randomMode()).weight, vec3(0.0));
 }

@@ -79,7 +79,8 @@ inline void listFields(const shared::PathParams& s, WordList& list) {
     DUOLUX_FIELD(transparent);
     DUOLUX_FIELD(rowWeight);
     DUOLUX_FIELD(display);
-    DUOLUX_FIELD(lightCount);
+    DUOLUX_FIELD(emitterCount);
+    DUOLUX_FIELD(emittingTriangles);
     DUOLUX_FIELD(emitterRoot);
     DUOLUX_FIELD(emitterLower);
     DUOLUX_FIELD(emitterUpper);
@@ -157,26 +158,28 @@ inline void listFields(const shared::TraceDispatch& s, WordList& list) {
     DUOLUX_FIELD(blockRays);
 }
 inline void listFields(const shared::DeviceMaterial& s, WordList& list) {
-    DUOLUX_FIELD(diffuse);
+    DUOLUX_FIELD(baseColor);
     DUOLUX_FIELD(flags);
-    DUOLUX_FIELD(invisibleEmission);
-    DUOLUX_FIELD(lightPdfArea);
-    DUOLUX_FIELD(visibleEmission);
-    DUOLUX_FIELD(padding);
+    DUOLUX_FIELD(metallic);
+    DUOLUX_FIELD(roughness);
+    DUOLUX_FIELD(unused);
     DUOLUX_FIELD(opaque);
     DUOLUX_FIELD(transparent);
 }
-inline void listFields(const shared::DeviceLight& s, WordList& list) {
+inline void listFields(const shared::DeviceEmitter& s, WordList& list) {
     DUOLUX_FIELD(v0);
-    DUOLUX_FIELD(material);
+    DUOLUX_FIELD(flags);
     DUOLUX_FIELD(v1);
     DUOLUX_FIELD(positionError);
     DUOLUX_FIELD(v2);
     DUOLUX_FIELD(triangle);
+    DUOLUX_FIELD(invisible);
+    DUOLUX_FIELD(density);
+    DUOLUX_FIELD(visible);
+    DUOLUX_FIELD(unused);
     DUOLUX_FIELD(threshold);
     DUOLUX_FIELD(alias);
-    DUOLUX_FIELD(primitive);
-    DUOLUX_FIELD(coincident);
+    DUOLUX_FIELD(padding);
 }
 inline void listFields(const shared::DevicePair& s, WordList& list) {
     DUOLUX_FIELD(v0);

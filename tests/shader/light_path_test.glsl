@@ -4,7 +4,6 @@
 uvec4 fetchNormalTexel(uint index) { return uvec4(index); }
 uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
-uvec4 fetchLightTexel(uint index) { return uvec4(0u); }
 
 TEST_N(SumsAreEmptyAtFirst, 1) {
     LaneSums sums = emptySums();

@@ -41,19 +41,26 @@ std::vector<double> numbers(const Array<N>& a) {
 
 }  // namespace duolux::mirror
 
-DUOLUX_MIRROR_TYPE(Bsdf, s.diffuse);
+DUOLUX_MIRROR_TYPE(Bsdf, s.baseColor, s.metallic, s.roughness);
+DUOLUX_MIRROR_TYPE(BsdfFrame, s.shading, s.geometric);
 DUOLUX_MIRROR_TYPE(BsdfSample, s.wi, s.pdf, s.weight);
 DUOLUX_MIRROR_TYPE(Triangle, s.v0, s.v1, s.v2, s.primitive, s.materialFlags);
-DUOLUX_MIRROR_TYPE(SurfacePoint, s.position, s.geometricNormal, s.shadingNormal, s.triangle, s.behindOthers);
+DUOLUX_MIRROR_TYPE(SurfacePoint, s.position, s.geometricNormal, s.shadingNormal, s.triangle, s.behindOthers,
+                   s.offset);
+DUOLUX_MIRROR_TYPE(Segment, s.origin, s.direction, s.t, s.order);
 DUOLUX_MIRROR_TYPE(Plane, s.normal, s.offset);
 DUOLUX_MIRROR_TYPE(LightMatrix, s.m00, s.m01, s.m10, s.m11);
 DUOLUX_MIRROR_TYPE(Light, s.invisible, s.visible);
-DUOLUX_MIRROR_TYPE(Material, s.bsdf.diffuse, s.flags, s.emission, s.lightPdfArea);
+DUOLUX_MIRROR_TYPE(Material, s.bsdf.baseColor, s.flags, s.bsdf.metallic, s.bsdf.roughness);
 DUOLUX_MIRROR_TYPE(FilmSum, s.r, s.g, s.b);
-DUOLUX_MIRROR_TYPE(LightTriangle, s.v0, s.v1, s.v2, s.material, s.positionError, s.triangle, s.primitive,
-                   s.coincident);
-DUOLUX_MIRROR_TYPE(LightSample, s.position, s.normal, s.material, s.positionError, s.triangle, s.primitive,
-                   s.coincident);
+DUOLUX_MIRROR_TYPE(Emitter, s.v0, s.flags, s.v1, s.positionError, s.v2, s.triangle, s.emission.invisible,
+                   s.density, s.emission.visible);
+DUOLUX_MIRROR_TYPE(AliasEntry, s.threshold, s.alias);
+DUOLUX_MIRROR_TYPE(EmitterChoice, s.index, s.u);
+DUOLUX_MIRROR_TYPE(EmitterPoint, s.position, s.normal, s.positionError);
+DUOLUX_MIRROR_TYPE(EmitterSample, s.wi, s.distance, s.emission, s.pdf, s.emitter, s.coincident);
+DUOLUX_MIRROR_TYPE(EmittedRay, s.point, s.direction, s.flux);
+DUOLUX_MIRROR_TYPE(EmitterSeen, s.point, s.intensity);
 DUOLUX_MIRROR_TYPE(Gathered, s.light, s.lastBounce, s.previousBounce);
 DUOLUX_MIRROR_TYPE(SlotSums, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
                    s.shadowRays, s.emitterRays, s.lastBounce, s.previousBounce);
@@ -65,14 +72,17 @@ DUOLUX_MIRROR_TYPE(LaneResult, s.nonFinite, s.clamped, s.lightRays, s.bounceRays
 namespace duolux::mirror::single {
 
 inline twice::Bsdf widen(const Bsdf& bsdf) {
-    return {test::widen(bsdf.diffuse)};
+    return {test::widen(bsdf.baseColor), test::widen(bsdf.metallic), test::widen(bsdf.roughness)};
+}
+inline twice::BsdfFrame widen(const BsdfFrame& f) {
+    return {test::widen(f.shading), test::widen(f.geometric)};
 }
 inline twice::Triangle widen(const Triangle& t) {
     return {test::widen(t.v0), test::widen(t.v1), test::widen(t.v2), t.primitive, t.materialFlags};
 }
 inline twice::SurfacePoint widen(const SurfacePoint& p) {
     return {test::widen(p.position), test::widen(p.geometricNormal), test::widen(p.shadingNormal), p.triangle,
-            p.behindOthers};
+            p.behindOthers, test::widen(p.offset)};
 }
 inline twice::LightMatrix widen(const LightMatrix& m) {
     return {test::widen(m.m00), test::widen(m.m01), test::widen(m.m10), test::widen(m.m11)};
@@ -81,7 +91,7 @@ inline twice::Light widen(const Light& l) {
     return {test::widen(l.invisible), test::widen(l.visible)};
 }
 inline twice::Material widen(const Material& m) {
-    return {widen(m.bsdf), m.flags, widen(m.emission), test::widen(m.lightPdfArea)};
+    return {widen(m.bsdf), m.flags};
 }
 inline twice::FilmSum widen(const FilmSum& s) {
     return {s.r, s.g, s.b};

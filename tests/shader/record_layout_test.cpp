@@ -48,8 +48,7 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
         const auto expected = [&](const std::vector<std::string>& fields) {
             return sentinelNumbers<shared::DeviceMaterial>(i, fields);
         };
-        EXPECT_EQ(numbers(materials[i]),
-                  expected({"diffuse", "flags", "invisibleEmission", "visibleEmission", "lightPdfArea"}));
+        EXPECT_EQ(numbers(materials[i]), expected({"baseColor", "flags", "metallic", "roughness"}));
         // m00, m01, m10, m11 in xyz; w is padding.
         std::vector<std::string> entries[2];
         for (int entry = 0; entry < 4; ++entry) {
@@ -63,44 +62,24 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
     }
 }
 
-TEST(RecordLayout, LightsAreFetchedFieldByField) {
-    using mirror::single::LightTriangle;
-    const auto records = sentinels<shared::DeviceLight>(kRecords);
-    ShaderLibrary library("shaders/lib/lights.glsl");
-    library.define("uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }");
-    library.texels("fetchLightTexel", std::span(std::as_const(records)));
-    const auto lights = library.call<LightTriangle>("fetchLight", recordIndices());
-    for (std::size_t i = 0; i < kRecords; ++i)
-        EXPECT_EQ(numbers(lights[i]),
-                  sentinelNumbers<shared::DeviceLight>(i, {"v0", "v1", "v2", "material", "positionError",
-                                                           "triangle", "primitive", "coincident"}));
-}
-
-// The alias table's part of a light: entry 1 of 4 keeps itself below its threshold, else its alias is taken.
-TEST(RecordLayout, AliasTableIsReadFieldByField) {
-    using mirror::single::LightSample;
-    auto records = sentinels<shared::DeviceLight>(kRecords);
-    for (std::uint32_t i = 0; i < kRecords; ++i) {
-        records[i].v0 = glm::vec3(0.0f);
-        records[i].v1 = glm::vec3(1.0f, 0.0f, 0.0f);
-        records[i].v2 = glm::vec3(0.0f, 1.0f, 0.0f);
-        records[i].material = 100 + i;
-        records[i].threshold = 0.125f * static_cast<float>(i + 1);
-        records[i].alias = (i + 2) % 4;
+TEST(RecordLayout, EmittersAreFetchedFieldByField) {
+    using mirror::single::AliasEntry;
+    using mirror::single::Emitter;
+    const auto records = sentinels<shared::DeviceEmitter>(kRecords);
+    ShaderLibrary library("shaders/lib/emitter/emitter_types.glsl");
+    library.define(
+        "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }"
+        "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }"
+        "uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }");
+    library.texels("fetchEmitterTexel", std::span(std::as_const(records)));
+    const auto emitters = library.call<Emitter>("fetchEmitter", recordIndices());
+    const auto entries = library.call<AliasEntry>("fetchAliasEntry", recordIndices());
+    for (std::size_t i = 0; i < kRecords; ++i) {
+        EXPECT_EQ(numbers(emitters[i]),
+                  sentinelNumbers<shared::DeviceEmitter>(i, {"v0", "flags", "v1", "positionError", "v2",
+                                                             "triangle", "invisible", "density", "visible"}));
+        EXPECT_EQ(numbers(entries[i]), sentinelNumbers<shared::DeviceEmitter>(i, {"threshold", "alias"}));
     }
-    ShaderLibrary library("shaders/lib/lights.glsl");
-    library.define("uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }");
-    library.texels("fetchLightTexel", std::span(std::as_const(records)));
-    std::vector<glm::uvec2> us;
-    std::vector<std::uint32_t> expected;
-    for (std::uint32_t i = 0; i < kRecords; ++i) {
-        const std::uint32_t edge = i * 0x40000000u + (i + 1) * 0x08000000u;  // (i + threshold) / 4
-        us.insert(us.end(), {{edge - 0x100u, 0u}, {edge + 0x100u, 0u}});
-        expected.insert(expected.end(), {100 + i, 100 + (i + 2) % 4});
-    }
-    const auto samples = library.call<LightSample>("sampleLight", 4u, us);
-    for (std::size_t i = 0; i < us.size(); ++i)
-        EXPECT_EQ(samples[i].material, expected[i]) << i;
 }
 
 TEST(RecordLayout, TrianglesAreFetchedFieldByField) {

@@ -135,8 +135,8 @@ TEST(Surface, PositionIsOffTheSurfaceOnTheRaysSide) {
 TEST(Surface, FramesMatchDoublePrecision) {
     const std::vector<glm::vec3> normals = randomDirections(1 << 14, 5);
     const std::vector<glm::vec3> directions = randomDirections(1 << 14, 6);
-    const std::vector<glm::vec3> local = surface().call<glm::vec3>("toFrame", normals, directions);
-    const std::vector<glm::vec3> world = surface().call<glm::vec3>("fromFrame", normals, directions);
+    const std::vector<glm::vec3> local = ShaderLibrary("shaders/lib/frame.glsl").call<glm::vec3>("toFrame", normals, directions);
+    const std::vector<glm::vec3> world = ShaderLibrary("shaders/lib/frame.glsl").call<glm::vec3>("fromFrame", normals, directions);
     for (std::size_t i = 0; i < normals.size(); ++i) {
         // The rotation from z to the normal by the smaller angle; below the equator the rotation from -z,
         // with the second axis negated.
@@ -173,14 +173,14 @@ TEST(Surface, WithPlanesPointsAreAsExactAsTheirOwnSize) {
         const glm::vec3 across = 100.0f * glm::pow(std::abs(d.x), 4.0f) * glm::normalize(d);
         at.push_back(across - normal * (glm::dot(normal, across) - plane.w) + 1e-5f * d);
         const float side = at.size() % 2 == 0 ? 1.0f : -1.0f;
-        points.push_back({glm::vec3(1e5f), side * normal, side * normal, 0u, 0u});
+        points.push_back({glm::vec3(1e5f), side * normal, side * normal, 0u, 0u, 0.0f});
     }
     for (const std::uint32_t behind : {0u, 1u}) {
         const auto placed =
             library.evaluate<SurfacePoint>("result = placedByPlane(x0, x1, x2 != 0u);", points, at,
                                            std::vector<std::uint32_t>(at.size(), behind));
         const auto begins = library.evaluate<glm::vec4>(
-            "RayBegin b = leaveSurface(x0, x0.geometricNormal); result = vec4(b.t, uintBitsToFloat(b.order & "
+            "Segment b = leaveSurface(x0, x0.geometricNormal); result = vec4(b.t, uintBitsToFloat(b.order & "
             "0xffffu), b.order == kNoTriangle ? 1.0 : 0.0, (b.order >> 31u) == 1u ? 1.0 : 0.0);",
             placed);
         for (std::size_t i = 0; i < at.size(); ++i) {
@@ -222,8 +222,9 @@ TEST(SurfaceOracles, AllFunctions) {
             [&](const auto&... x) { return mirror::twice::surfacePoint(x..., smooth != 0u); }, h.triangles,
             indices, h.barycentrics, h.normals, h.rays);
     }
-    EXPECT_ORACLES(surface(), toFrame, (Budget{1, 6e-7}), h.normals, h.rays);
-    EXPECT_ORACLES(surface(), fromFrame, (Budget{1, 6e-7}), h.normals, h.rays);
+    const ShaderLibrary frame("shaders/lib/frame.glsl");
+    EXPECT_ORACLES(frame, toFrame, (Budget{1, 6e-7}), h.normals, h.rays);
+    EXPECT_ORACLES(frame, fromFrame, (Budget{1, 6e-7}), h.normals, h.rays);
     // The quotient of two cosines, of which the one below is not so small that its rounding is all there is;
     // and neither near 0, where single and double may fall on different sides.
     std::vector<SurfacePoint> points;
@@ -233,7 +234,7 @@ TEST(SurfaceOracles, AllFunctions) {
         const glm::dvec3 w(h.rays[(i + 1) % h.rays.size()]);
         if (std::abs(glm::dot(shading, w)) < 1e-3 || std::abs(glm::dot(glm::dvec3(h.normals[i]), w)) < 0.05)
             continue;
-        points.push_back({glm::vec3(0.0f), h.normals[i], glm::vec3(shading), 0u, 0u});
+        points.push_back({glm::vec3(0.0f), h.normals[i], glm::vec3(shading), 0u, 0u, 0.0f});
         wi.emplace_back(w);
     }
     EXPECT_ORACLES(surface(), shadingAdjoint, (Budget{8, 1e-5}), points, wi);

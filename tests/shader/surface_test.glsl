@@ -1,4 +1,5 @@
 // A point on a surface, its normals, and directions in its frame.
+#include "shaders/lib/frame.glsl"
 #include "shaders/lib/surface.glsl"
 #include "tests/shader/frame_inputs.glsl"
 
@@ -108,7 +109,7 @@ TEST(BothNormalsAreOnOneSideOfAGrazingRay) {
 }
 
 SurfacePoint pointWithNormals(vec3 geometric, vec3 shading) {
-    return SurfacePoint(vec3(0.0), geometric, shading, 0u, 0u);
+    return SurfacePoint(vec3(0.0), geometric, shading, 0u, 0u, 0.0);
 }
 
 // Normals 60 degrees apart: cosines are 1, 1/2, and 0 at 90 degrees from either.
@@ -173,8 +174,22 @@ TEST(WithoutPlanesNothingIsMoved) {
     point.position = randomVec3(-1.0, 1.0);
     SurfacePoint placed = placedByPlane(point, randomVec3(-1.0, 1.0), true);
     EXPECT_EQ(placed.position, point.position);
-    RayBegin begin = leaveSurface(placed, randomDirection());
-    EXPECT_EQ(begin.origin, point.position);
-    EXPECT_EQ(begin.t, 0.0);
-    EXPECT_EQ(begin.order, kNoTriangle);
+    vec3 direction = randomDirection();
+    Segment segment = leaveSurface(placed, direction);
+    EXPECT_EQ(segment.origin, point.position);
+    EXPECT_EQ(segment.direction, direction);
+    EXPECT_EQ(segment.t, 0.0);
+    EXPECT_EQ(segment.order, kNoTriangle);
+}
+
+// A ray leaves from the side that it goes to, by the bound on the point's error.
+TEST(RayLeavesOnItsOwnSide) {
+    Triangle tri = randomTriangle(0u);
+    vec2 b = randomBarycentric();
+    vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+    SurfacePoint point = surfacePoint(tri, 0u, b, normal, randomDirection(), false);
+    vec3 direction = randomDirection();
+    float side = dot(point.geometricNormal, direction) < 0.0 ? -1.0 : 1.0;
+    vec3 expected = pointOnTriangle(tri, b) + side * pointError(tri) * point.geometricNormal;
+    EXPECT_NEAR(leaveSurface(point, direction).origin, expected, 2e-7);
 }

@@ -29,11 +29,10 @@ std::vector<shared::DeviceMaterial> materials() {
     std::vector<shared::DeviceMaterial> out(kMaterials);
     for (std::size_t i = 0; i < kMaterials; ++i) {
         shared::DeviceMaterial& m = out[i];
-        m.diffuse = vector();
+        m.baseColor = vector();
         m.flags = static_cast<std::uint32_t>(i + 1);
-        m.invisibleEmission = vector();
-        m.lightPdfArea = uniform(engine);
-        m.visibleEmission = vector();
+        m.metallic = uniform(engine);
+        m.roughness = uniform(engine);
         for (int entry = 0; entry < 4; ++entry) {
             m.opaque[entry] = glm::vec4(vector(), -1.0f);
             m.transparent[entry] = glm::vec4(vector(), -1.0f);
@@ -280,13 +279,6 @@ TEST(TransportOracles, MaterialsAreFetchedTheSame) {
             front.push_back(side);
         }
     }
-    const auto emission =
-        library.evaluate<mirror::single::Light>("result = materialEmission(x0, x1 != 0u);", all, front);
-    EXPECT_WITHIN_ORACLES(
-        "materialEmission", emission, exact,
-        [](const auto& m, std::uint32_t f) { return mirror::single::materialEmission(m, f != 0); },
-        [](const auto& m, std::uint32_t f) { return mirror::twice::materialEmission(m, f != 0); }, all,
-        front);
     const auto scatters =
         library.evaluate<std::uint32_t>("result = uint(materialScatters(x0, x1 != 0u));", all, front);
     EXPECT_WITHIN_ORACLES(

@@ -29,7 +29,7 @@ double meanBy(Scene scene, Integrator integrator, std::uint32_t spp) {
 
 Material absorbing() {
     Material material;
-    material.diffuse = glm::vec3(0.0f);
+    material.baseColor = glm::vec3(0.0f);
     return material;
 }
 
@@ -94,7 +94,7 @@ class Lamp : public Coincident {
         Scene& scene = builder_.scene;
         scene.render.bounces = 1;
         Material floor;
-        floor.diffuse = glm::vec3(0.5f);
+        floor.baseColor = glm::vec3(0.5f);
         builder_.quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, builder_.add(floor));
         lookAtFloor();
     }
@@ -146,7 +146,7 @@ TEST_F(Lamp, OfTwoFacesShinesBothWays) {
 
 TEST_F(Lamp, InThePlaneOfACeilingShines) {
     Material ceiling;
-    ceiling.diffuse = glm::vec3(0.3f);
+    ceiling.baseColor = glm::vec3(0.3f);
     const SceneBuilder floor = builder_;
     plate(2.0f, 1.0f, ceiling, true);
     plate(0.5f, 0.999f, lamp(), true);
@@ -189,7 +189,7 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
         builder_ = filmFirst;
         plate(2.0f, 0.0f, film, false);
         Material floorMaterial;
-        floorMaterial.diffuse = glm::vec3(0.5f);
+        floorMaterial.baseColor = glm::vec3(0.5f);
         plate(2.0f, 0.0f, floorMaterial, false);
         plate(1.0f, 1.0f, lamp(), true);
         together = builder_.scene;
@@ -210,7 +210,7 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
 Scene groundScene(float reach, bool tilted) {
     SceneBuilder builder;
     Material white, lamp = absorbing();
-    white.diffuse = glm::vec3(0.8f);
+    white.baseColor = glm::vec3(0.8f);
     lamp.emission = {glm::vec3(100.0f), glm::vec3(0.0f), Sides::kFront};
     const std::uint32_t w = builder.add(white), l = builder.add(lamp);
     const float g = reach;

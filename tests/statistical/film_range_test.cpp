@@ -25,7 +25,7 @@ class FilmRange : public testing::TestWithParam<Integrator> {
 
     void panel(float left, float right, float visible, float invisible = 0.0f) {
         Material material;
-        material.diffuse = glm::vec3(0.0f);
+        material.baseColor = glm::vec3(0.0f);
         material.emission.visible = glm::vec3(visible);
         material.emission.invisible = glm::vec3(invisible);
         builder_.quad({left, -2, 0}, {right, -2, 0}, {right, 2, 0}, {left, 2, 0}, builder_.add(material));

@@ -35,6 +35,8 @@ TEST_P(LightExact, MatchesClosedForm) {
 
 std::vector<ExactCase> casesForLight() {
     std::vector<ExactCase> cases = exactCases();
+    for (ExactCase& metal : metalCases())
+        cases.push_back(std::move(metal));
     std::erase_if(cases, [](const ExactCase& exact) { return exact.onePoint; });
     return cases;
 }
@@ -80,7 +82,7 @@ Scene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kBoth) {
     SceneBuilder builder;
     Material grey;
     grey.name = "grey";
-    grey.diffuse = {0.8f, 0.6f, 0.4f};
+    grey.baseColor = {0.8f, 0.6f, 0.4f};
     grey.sides = sides;
     const std::uint32_t surface = builder.add(grey);
     builder.sphere({0, 1, 0}, 1.0f, 1, Facing::kOutward, surface);
@@ -91,7 +93,7 @@ Scene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kBoth) {
     builder.quad({-3, -0.2f, -3}, {-3, -0.2f, 3}, {3, -0.2f, 3}, {3, -0.2f, -3}, surface);
     Material lamp;
     lamp.name = "lamp";
-    lamp.diffuse = glm::vec3(0.0f);
+    lamp.baseColor = glm::vec3(0.0f);
     lamp.emission = {{20, 15, 10}, {5, 10, 15}, Sides::kFront};
     builder.quad({-1.5f, 4, 0}, {-1.5f, 3, 1}, {-2.5f, 2, 0}, {-2.5f, 3, -1}, builder.add(lamp));
     geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
@@ -109,7 +111,7 @@ Scene leaningFloor() {
     SceneBuilder builder;
     Material grey;
     grey.name = "grey";
-    grey.diffuse = glm::vec3(0.8f);
+    grey.baseColor = glm::vec3(0.8f);
     const std::uint32_t surface = builder.add(grey);
     builder.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, surface);
     Geometry& geometry = builder.scene.geometry;
@@ -120,7 +122,7 @@ Scene leaningFloor() {
     builder.quad({1, 0, -1}, {1, 0, 1}, {1, 2, 1}, {1, 2, -1}, surface);
     Material lamp;
     lamp.name = "lamp";
-    lamp.diffuse = glm::vec3(0.0f);
+    lamp.baseColor = glm::vec3(0.0f);
     lamp.emission.invisible = {30, 20, 10};
     builder.quad({-0.4f, 0.4f, -0.4f}, {-0.2f, 0.4f, -0.4f}, {-0.2f, 0.4f, 0}, {-0.4f, 0.4f, 0},
                  builder.add(lamp));
@@ -150,6 +152,18 @@ std::vector<PairCase> pairCases() {
     cases.push_back({"LeaningFloor", leaningFloor()});
     // Seen through, a sphere would scatter on its inside, too.
     cases.push_back({"SmoothSphereOneSided", smoothSphere(fullReflectance(), Sides::kFront)});
+    // Metal, flat and with normals that lean: shooting samples it in its own mode.
+    const auto ofMetal = [](Scene scene, float roughness) {
+        for (Material& material : scene.materials) {
+            material.metallic = material.emission.any() ? 0.0f : 0.8f;
+            material.roughness = roughness;
+        }
+        return scene;
+    };
+    cases.push_back({"MetalSphereRough", ofMetal(smoothSphere(preset("global")), 0.8f)});
+    cases.push_back({"MetalFloorGlossy", ofMetal(leaningFloor(), 0.6f)});
+    cases.push_back({"MetalSphereGlossy", ofMetal(smoothSphere(fullReflectance()), 0.4f)});
+    cases.push_back({"MetalFloorRough", ofMetal(leaningFloor(), 0.8f)});
     Scene parallel = leaningFloor();
     parallel.camera.type = CameraType::kOrthographic;
     parallel.camera.height = 3.0f;

@@ -72,7 +72,7 @@ class RendererTest : public testing::Test {
         std::vector<Material> materials = renderer.scene().materials;
         for (Material& material : materials) {
             material.emission.invisible *= 2.0f;
-            material.diffuse *= 0.5f;
+            material.baseColor *= 0.5f;
         }
         renderer.setMaterials(materials);
         expectSame(renderer, tuning, "brighter emitters");

@@ -10,7 +10,7 @@ void addMaterials(SceneBuilder& builder) {
     const auto add = [&](const char* name, glm::vec3 diffuse) {
         Material material;
         material.name = name;
-        material.diffuse = diffuse;
+        material.baseColor = diffuse;
         builder.add(material);
     };
     add("white", {0.74f, 0.72f, 0.68f});
@@ -50,7 +50,7 @@ void addBlocks(SceneBuilder& b) {
 Material lampMaterial() {
     Material lamp;
     lamp.name = "lamp";
-    lamp.diffuse = glm::vec3(0.4f);
+    lamp.baseColor = glm::vec3(0.4f);
     lamp.emission = {{6.0f, 2.0f, 9.0f}, {1.0f, 5.0f, 3.0f}, Sides::kBoth};
     return lamp;
 }

@@ -17,7 +17,8 @@ struct ExactCase {
     /// The light search with a finite variance; only the reference needs it.
     reference::LightSearch search = reference::LightSearch::kDirection;
     double relative = 1e-5;  ///< error of the closed form and of single precision
-    bool onePoint = false;   ///< every pixel sees the same point, which no light path hits
+    bool onePoint =
+        false;  ///< no light path reaches the camera: every pixel sees the same point, or a mirror
 };
 
 /// For messages of the test framework.
@@ -27,6 +28,9 @@ inline void PrintTo(const ExactCase& exact, std::ostream* out) {
 
 /// Closed sphere seen from inside, uniform emission: L = sum over k of (albedo O)^k E.
 std::vector<ExactCase> enclosureCases();
+
+/// The same with metallic walls, which the reference does not know.
+std::vector<ExactCase> metalCases();
 
 /// Concentric spheres that pass light on: products of T in the order met from the camera.
 std::vector<ExactCase> crossingCases();

@@ -21,7 +21,7 @@ Reflectance preset(const char* name) {
 Material filter(const std::string& name, const LightMatrix& transparent) {
     Material material;
     material.name = name;
-    material.diffuse = glm::vec3(0.0f);
+    material.baseColor = glm::vec3(0.0f);
     material.reflectance = Reflectance{{}, transparent};
     return material;
 }

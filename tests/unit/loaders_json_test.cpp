@@ -55,7 +55,8 @@ TEST_F(JsonTest, EveryKey) {
         "display": [1, 0.5],
         "reflectance": {"blend": [0.25, 0.75]},
         "materials": {"white": {"diffuse": 0.25, "sides": "front", "reflectance": {"preset": "local"}},
-                      "lamp": {"emission": {"visible": [0, 0, 0.5], "sides": "both"}}})");
+                      "lamp": {"base_color": [1, 0.5, 0.25], "metallic": 0.75, "roughness": 0.125,
+                               "emission": {"visible": [0, 0, 0.5], "sides": "both"}}})");
     EXPECT_EQ(scene.camera.position, glm::vec3(1, 2, 3));
     EXPECT_EQ(scene.camera.target, glm::vec3(4, 5, -6));
     EXPECT_EQ(scene.camera.up, glm::vec3(0, 0, 2));
@@ -69,10 +70,15 @@ TEST_F(JsonTest, EveryKey) {
     EXPECT_EQ(scene.display, glm::vec2(1.0f, 0.5f));
     EXPECT_EQ(scene.reflectance, blendReflectance(0.25f, 0.75f));
     const Material& white = material(scene, "white");
-    EXPECT_EQ(white.diffuse, glm::vec3(0.25f));
+    EXPECT_EQ(white.baseColor, glm::vec3(0.25f));
     EXPECT_EQ(white.sides, Sides::kFront);
     EXPECT_EQ(white.reflectance, presetReflectance("local"));
+    EXPECT_EQ(white.metallic, 0.0f);
+    EXPECT_EQ(white.roughness, 1.0f);
     const Material& lamp = material(scene, "lamp");
+    EXPECT_EQ(lamp.baseColor, glm::vec3(1.0f, 0.5f, 0.25f));
+    EXPECT_EQ(lamp.metallic, 0.75f);
+    EXPECT_EQ(lamp.roughness, 0.125f);
     EXPECT_EQ(lamp.emission.invisible, glm::vec3(3, 2, 1)) << "what is not overridden stays as in the MTL";
     EXPECT_EQ(lamp.emission.visible, glm::vec3(0, 0, 0.5f));
     EXPECT_EQ(lamp.emission.sides, Sides::kBoth);
@@ -107,7 +113,7 @@ TEST_F(JsonTest, RectangleLightEmitsAlongEdge1CrossEdge2) {
         EXPECT_THAT(areaVector(scene.geometry, i), IsNear(glm::vec3(0, -3, 0), 1e-6f));
         const Material& light = scene.materials[scene.geometry.materials[i]];
         EXPECT_EQ(light.name, "lights[0]");
-        EXPECT_EQ(light.diffuse, glm::vec3(0));
+        EXPECT_EQ(light.baseColor, glm::vec3(0));
         EXPECT_EQ(light.emission.invisible, glm::vec3(4, 5, 6));
         EXPECT_EQ(light.emission.visible, glm::vec3(0));
         EXPECT_EQ(light.emission.sides, Sides::kFront);
@@ -250,6 +256,13 @@ TEST_F(JsonTest, MaterialsAreChecked) {
     };
     EXPECT_THAT(error(R"("diffuse": [1, 1.1, 1])"),
                 HasSubstr("materials.white.diffuse[1]: is 1.1; expected an albedo"));
+    EXPECT_THAT(error(R"("base_color": 2)"),
+                HasSubstr("materials.white.base_color: is 2; expected an albedo"));
+    EXPECT_THAT(error(R"("base_color": 1, "diffuse": 1)"),
+                HasSubstr("materials.white.diffuse: is another name of base_color; expected one of the two"));
+    EXPECT_THAT(error(R"("metallic": 1.5)"),
+                HasSubstr("materials.white.metallic: is 1.5; expected a number from 0 to 1"));
+    EXPECT_THAT(error(R"("roughness": "smooth")"), HasSubstr("materials.white.roughness: is \"smooth\""));
     EXPECT_THAT(error(R"("diffuse": "red")"), HasSubstr("materials.white.diffuse: is \"red\""));
     EXPECT_THAT(error(R"("emission": {"invisible": -1})"),
                 HasSubstr("materials.white.emission.invisible: is -1"));

@@ -179,7 +179,7 @@ TEST_F(LenientTest, CommentsMayFollowNumbersAtOnce) {
     EXPECT_THAT(warningsOf("v 0 0 1.#INF\nv 0 0 -1.#IND00\nf 1 2 3\n"),
                 ElementsAre(HasSubstr("(and 1 more)")));
     write("m.mtl", "newmtl a\nKd 1 0 0.5#c\n");
-    EXPECT_EQ(loadObj("mtllib m.mtl\nusemtl a\n" + std::string(kTriangleObj)).materials[0].diffuse,
+    EXPECT_EQ(loadObj("mtllib m.mtl\nusemtl a\n" + std::string(kTriangleObj)).materials[0].baseColor,
               glm::vec3(1, 0, 0.5f));
 }
 
@@ -208,7 +208,7 @@ TEST_F(LenientTest, LibrariesAreFoundAsTheyWereMeant) {
     for (const char* name : {".\\materials\\red.mtl", "materials\\Red.MTL", "\"materials/red.mtl\"",
                              "beside.mtl", "C:\\work\\beside.mtl", "/no/such/folder/Beside.mtl"}) {
         const Scene scene = loadObj(fmt::format("mtllib {}\nusemtl red\n{}", name, kTriangleObj));
-        EXPECT_EQ(scene.materials[scene.geometry.materials[0]].diffuse, glm::vec3(1, 0, 0)) << name;
+        EXPECT_EQ(scene.materials[scene.geometry.materials[0]].baseColor, glm::vec3(1, 0, 0)) << name;
     }
 }
 
@@ -269,7 +269,7 @@ TEST_F(LenientTest, CommentsAndNamesDoNotMakeAFileForeign) {
         loadJson(
             R"({"materials": {"asset": {"diffuse": 0.5}}, "duolux": 1, "objects": [{"mesh": "asset.obj"}]})")
             .materials[0]
-            .diffuse,
+            .baseColor,
         glm::vec3(0.5f));
 }
 

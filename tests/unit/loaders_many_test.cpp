@@ -40,8 +40,8 @@ TEST_F(ManyTest, MaterialsOfMeshAndScene) {
     materials.pop_back();
     write("scene.json", R"({"duolux": 1, "objects": [{"mesh": "m.obj"}], "materials": {)" + materials + "}}");
     const Scene scene = loadSoon("scene.json");
-    EXPECT_EQ(scene.materials[0].diffuse, glm::vec3(0.25f));
-    EXPECT_EQ(scene.materials[kMany - 1].diffuse, glm::vec3(0.25f));
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(0.25f));
+    EXPECT_EQ(scene.materials[kMany - 1].baseColor, glm::vec3(0.25f));
 }
 
 TEST_F(ManyTest, ObjectsOfOneMeshWarnOnce) {

@@ -36,15 +36,15 @@ class MaterialsTest : public SceneFiles {
 TEST_F(MaterialsTest, FacesWithoutOneAreGreyWhateverTheFileCallsDefault) {
     write("m.mtl", "newmtl default\nKd 1 0 0\n");
     const Scene scene = loadObj("mtllib m.mtl\n" + std::string(kTriangleObj) + "usemtl default\nf 1 2 3\n");
-    EXPECT_EQ(scene.materials[scene.geometry.materials[0]].diffuse, glm::vec3(0.8f));
-    EXPECT_EQ(scene.materials[scene.geometry.materials[1]].diffuse, glm::vec3(1, 0, 0));
+    EXPECT_EQ(scene.materials[scene.geometry.materials[0]].baseColor, glm::vec3(0.8f));
+    EXPECT_EQ(scene.materials[scene.geometry.materials[1]].baseColor, glm::vec3(1, 0, 0));
 }
 
 TEST_F(MaterialsTest, NamesWithCommentsAndQuotes) {
     const auto expectRed = [&](const char* defined, const char* used, const char* name) {
         write("m.mtl", fmt::format("newmtl {}\nKd 1 0 0\n", defined));
         const Material material = materialOf(fmt::format("mtllib m.mtl\nusemtl {}", used));
-        EXPECT_EQ(material.diffuse, glm::vec3(1, 0, 0)) << defined << " " << used;
+        EXPECT_EQ(material.baseColor, glm::vec3(1, 0, 0)) << defined << " " << used;
         EXPECT_EQ(material.name, name);
     };
     expectRed("red # c", "red", "red");
@@ -53,7 +53,7 @@ TEST_F(MaterialsTest, NamesWithCommentsAndQuotes) {
     expectRed("my red", "\"my red\"", "my red");
     expectRed("Material #25", "Material #25", "Material #25");
     write("m.mtl", "newmtl Material #25\nKd 1 0 0\nnewmtl Material #26\nKd 0 1 0\n");
-    EXPECT_EQ(materialOf("mtllib m.mtl\nusemtl Material #26").diffuse, glm::vec3(0, 1, 0));
+    EXPECT_EQ(materialOf("mtllib m.mtl\nusemtl Material #26").baseColor, glm::vec3(0, 1, 0));
 }
 
 TEST_F(MaterialsTest, LibrariesWithCommentsQuotesAndWithoutExtension) {
@@ -61,17 +61,17 @@ TEST_F(MaterialsTest, LibrariesWithCommentsQuotesAndWithoutExtension) {
     write("x y.mtl", "newmtl green\nKd 0 1 0\n");
     for (const char* names :
          {"m.mtl # comment", "\"m.mtl\" \"x y.mtl\"", "m", "M", "\"m\" # c", "sub\\m", "none.mtl m.mtl"}) {
-        EXPECT_EQ(materialOf(fmt::format("mtllib {}\nusemtl red", names)).diffuse, glm::vec3(1, 0, 0))
+        EXPECT_EQ(materialOf(fmt::format("mtllib {}\nusemtl red", names)).baseColor, glm::vec3(1, 0, 0))
             << names;
     }
-    EXPECT_EQ(materialOf("mtllib \"m.mtl\" \"x y.mtl\"\nusemtl green").diffuse, glm::vec3(0, 1, 0));
-    EXPECT_EQ(materialOf("mtllib x y.mtl # both\nusemtl green").diffuse, glm::vec3(0, 1, 0));
+    EXPECT_EQ(materialOf("mtllib \"m.mtl\" \"x y.mtl\"\nusemtl green").baseColor, glm::vec3(0, 1, 0));
+    EXPECT_EQ(materialOf("mtllib x y.mtl # both\nusemtl green").baseColor, glm::vec3(0, 1, 0));
 }
 
 TEST_F(MaterialsTest, ALibraryThatCannotBeReadLeavesGrey) {
     write("m.mtl", std::string("newmtl red\nKd \0 0 0\n", 20));
     const Scene scene = loadObj("mtllib m.mtl\nusemtl red\n" + std::string(kTriangleObj));
-    EXPECT_EQ(scene.materials[scene.geometry.materials[0]].diffuse, glm::vec3(0.8f));
+    EXPECT_EQ(scene.materials[scene.geometry.materials[0]].baseColor, glm::vec3(0.8f));
     EXPECT_THAT(scene.warnings,
                 Contains(HasSubstr("m.mtl: line 2: holds a zero byte; expected a text file: its "
                                    "materials are grey")));
@@ -79,7 +79,7 @@ TEST_F(MaterialsTest, ALibraryThatCannotBeReadLeavesGrey) {
 
 TEST_F(MaterialsTest, ColoursThatAreTooLargeMatterOnlyWhereTheyAreUsed) {
     write("m.mtl", "newmtl sun\nKe 1e300 1 1\nnewmtl snow\nKd 1e13 1 1\nnewmtl red\nKd 1 0 0\n");
-    EXPECT_EQ(materialOf("mtllib m.mtl\nusemtl sun\nusemtl red").diffuse, glm::vec3(1, 0, 0));
+    EXPECT_EQ(materialOf("mtllib m.mtl\nusemtl sun\nusemtl red").baseColor, glm::vec3(1, 0, 0));
     EXPECT_EQ(errorOfObj("mtllib m.mtl\nusemtl snow\n" + std::string(kTriangleObj)),
               "m.mtl: line 4: Kd: too large; expected numbers from 0 to 1e+12");
     EXPECT_THAT(errorOfObj("mtllib m.mtl\nusemtl red\n" + std::string(kTriangleObj), Reading::kStrict),
@@ -112,7 +112,7 @@ TEST_F(MaterialsTest, MaterialsThatNoFaceHasAreLeftOutButMayBeNamed) {
     write("mesh.obj", "mtllib m.mtl\nusemtl empty\nusemtl red\n" + std::string(kTriangleObj));
     const Scene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}, {"mesh": "./mesh.obj"}],
         "materials": {"blue": {"diffuse": 0.5}, "empty": {}, "red": {"diffuse": 0.25}}})");
-    ASSERT_EQ(scene.materials[0].diffuse, glm::vec3(0.25f));
+    ASSERT_EQ(scene.materials[0].baseColor, glm::vec3(0.25f));
     EXPECT_EQ(scene.content.materials, 1u);
     EXPECT_THAT(scene.warnings,
                 Contains(HasSubstr("scene.json: materials.blue (and 1 more): no face has this material")));

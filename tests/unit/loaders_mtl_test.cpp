@@ -27,7 +27,7 @@ TEST_F(MtlTest, ReadsDiffuseAndEmission) {
     ASSERT_EQ(library.materials.size(), 1u);
     const Material& material = library.materials[0];
     EXPECT_EQ(material.name, "lamp");
-    EXPECT_EQ(material.diffuse, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(material.baseColor, glm::vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(material.emission.invisible, glm::vec3(1.0f, 2.0f, 3.5f));
     EXPECT_EQ(material.emission.visible, glm::vec3(1.0f, 2.0f, 3.5f));
     EXPECT_EQ(material.emission.sides, Sides::kFront);
@@ -38,28 +38,28 @@ TEST_F(MtlTest, ReadsDiffuseAndEmission) {
 
 TEST_F(MtlTest, AbsentDiffuseIsGreyButBlackIsBlack) {
     const MaterialLibrary library = load("newmtl absent\nKs 1 1 1\nnewmtl black\nKd 0 0 0\n");
-    EXPECT_EQ(library.materials[0].diffuse, glm::vec3(0.8f));
-    EXPECT_EQ(library.materials[1].diffuse, glm::vec3(0.0f));
+    EXPECT_EQ(library.materials[0].baseColor, glm::vec3(0.8f));
+    EXPECT_EQ(library.materials[1].baseColor, glm::vec3(0.0f));
 }
 
 TEST_F(MtlTest, NamesMayHoldBlanksAndLinesEndInCrLf) {
     const MaterialLibrary library = load("newmtl  old brick \r\nKd 1 0 0\r\n\r\nnewmtl b\r\nKd 0 1 0\r\n");
     ASSERT_EQ(library.materials.size(), 2u);
     EXPECT_EQ(library.materials[0].name, "old brick");
-    EXPECT_EQ(library.materials[0].diffuse, glm::vec3(1, 0, 0));
-    EXPECT_EQ(library.materials[1].diffuse, glm::vec3(0, 1, 0));
+    EXPECT_EQ(library.materials[0].baseColor, glm::vec3(1, 0, 0));
+    EXPECT_EQ(library.materials[1].baseColor, glm::vec3(0, 1, 0));
 }
 
 TEST_F(MtlTest, ReflectingMoreThanAllIsAWarning) {
     const MaterialLibrary library = load("newmtl a\nKd 1 1.5 1\n");
-    EXPECT_EQ(library.materials[0].diffuse.y, 1.5f);
+    EXPECT_EQ(library.materials[0].baseColor.y, 1.5f);
     EXPECT_THAT(library.warnings, ElementsAre(HasSubstr("m.mtl: line 2: Kd of \"a\" is above 1")));
 }
 
 TEST_F(MtlTest, SecondDefinitionAndTexturesAreWarnings) {
     const MaterialLibrary library = load("newmtl a\nKd 1 0 0\nmap_Kd -s 2 2 wood.png\nnewmtl a\nKd 0 1 0\n");
     ASSERT_EQ(library.materials.size(), 1u);
-    EXPECT_EQ(library.materials[0].diffuse, glm::vec3(1, 0, 0));
+    EXPECT_EQ(library.materials[0].baseColor, glm::vec3(1, 0, 0));
     EXPECT_THAT(
         library.warnings,
         ElementsAre(HasSubstr("m.mtl: line 4: material \"a\" is defined again: the first one counts"),
@@ -85,10 +85,10 @@ TEST_F(MtlTest, ColoursThatAreNotThreeNumbersAreReadAsTheyCanBe) {
     const auto read = [&](const char* colour) {
         const MaterialLibrary library = load(fmt::format("newmtl a\nKd {}\nKe {}\n", colour, colour));
         EXPECT_EQ(library.warnings.size(), 1u) << colour;
-        EXPECT_EQ(library.materials[0].emission.invisible, library.materials[0].diffuse == glm::vec3(0.8f)
+        EXPECT_EQ(library.materials[0].emission.invisible, library.materials[0].baseColor == glm::vec3(0.8f)
                                                                ? glm::vec3(0.0f)
-                                                               : library.materials[0].diffuse);
-        return library.materials[0].diffuse;
+                                                               : library.materials[0].baseColor);
+        return library.materials[0].baseColor;
     };
     EXPECT_EQ(read("0.5"), glm::vec3(0.5f));
     EXPECT_EQ(read("0.5 0.25"), glm::vec3(0.5f, 0.25f, 0.0f));
@@ -102,7 +102,7 @@ TEST_F(MtlTest, EachKindOfOddityIsOneWarning) {
     const MaterialLibrary library = load(
         "Kd 1 0 0\nNs 3\nnewmtl\nKd 1 0 0\nnewmtl a\nKd 0.5\nKe 2\nnewmtl b\nKd 2 2 2\nnewmtl c\nKd 3 3 3\n");
     ASSERT_EQ(library.materials.size(), 3u);
-    EXPECT_EQ(library.materials[0].diffuse, glm::vec3(0.5f));
+    EXPECT_EQ(library.materials[0].baseColor, glm::vec3(0.5f));
     EXPECT_THAT(library.warnings,
                 ElementsAre(HasSubstr("m.mtl: line 1: a statement before any newmtl (and 1 more): ignored"),
                             HasSubstr("m.mtl: line 3: newmtl without a name: what follows it is ignored"),

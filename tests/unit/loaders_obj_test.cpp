@@ -84,7 +84,7 @@ TEST_F(ObjTest, FacesBeforeAnyMaterialAreDefaultGrey) {
     const Scene scene = loadObj("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\n");
     const Material& first = scene.materials[scene.geometry.materials[0]];
     EXPECT_EQ(first.name, "default");
-    EXPECT_EQ(first.diffuse, glm::vec3(0.8f));
+    EXPECT_EQ(first.baseColor, glm::vec3(0.8f));
     EXPECT_EQ(scene.materials[scene.geometry.materials[1]].name, "red");
 }
 
@@ -92,7 +92,7 @@ TEST_F(ObjTest, MissingMtlIsAWarning) {
     const Scene scene = loadObj("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl brick wall \nf 1 2 3\n");
     const Material& material = scene.materials[scene.geometry.materials[0]];
     EXPECT_EQ(material.name, "brick wall");
-    EXPECT_EQ(material.diffuse, glm::vec3(0.8f));
+    EXPECT_EQ(material.baseColor, glm::vec3(0.8f));
     ASSERT_GE(scene.warnings.size(), 2u);
     EXPECT_THAT(scene.warnings[0], HasSubstr("none.mtl: no such file"));
     EXPECT_THAT(scene.warnings[1], HasSubstr("\"brick wall\" is not defined"));
@@ -105,7 +105,9 @@ TEST_F(ObjTest, MtlFilesWithBlanksOrSeveralOnALine) {
     const Scene scene = loadObj(
         "mtllib my colours.mtl\nmtllib b.mtl c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
         "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n");
-    const auto diffuse = [&](std::size_t i) { return scene.materials[scene.geometry.materials[i]].diffuse; };
+    const auto diffuse = [&](std::size_t i) {
+        return scene.materials[scene.geometry.materials[i]].baseColor;
+    };
     EXPECT_EQ(diffuse(0), glm::vec3(1, 0, 0));
     EXPECT_EQ(diffuse(1), glm::vec3(0, 1, 0));
     EXPECT_EQ(diffuse(2), glm::vec3(0, 0, 1));

@@ -85,7 +85,7 @@ TEST_F(PlyTest, IsASceneOfItsOwn) {
     EXPECT_EQ(scene.content.triangles, 1u);
     ASSERT_FALSE(scene.materials.empty());
     EXPECT_EQ(scene.materials[0].name, "default");
-    EXPECT_EQ(scene.materials[0].diffuse, glm::vec3(0.8f));
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(0.8f));
     EXPECT_EQ(scene.meshBytes, ascii(3, kThree, 1, "3 0 1 2\n").size());
 }
 
@@ -95,7 +95,7 @@ TEST_F(PlyTest, IsAMeshOfAJsonScene) {
         "transform": [2,0,0,0, 0,2,0,0, 0,0,2,1, 0,0,0,1]}],
         "materials": {"default": {"diffuse": [0.1, 0.2, 0.3]}}})");
     EXPECT_EQ(scene.content.triangles, 2u);
-    EXPECT_EQ(scene.materials[0].diffuse, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(0.1f, 0.2f, 0.3f));
     EXPECT_FLOAT_EQ(glm::length(areaVector(scene.geometry, 0)), 0.5f);
     EXPECT_FLOAT_EQ(glm::length(areaVector(scene.geometry, 1)), 2.0f);
 }

@@ -61,8 +61,8 @@ Scene twoAreas() {
     scene.geometry.materials = {0, 0, 1};
     scene.materials.resize(2);
     scene.materials[0].emission = {glm::vec3(1, 2, 3), glm::vec3(0, 0, 5), Sides::kFront};
-    scene.materials[0].diffuse = glm::vec3(0.0f);
-    scene.materials[1].diffuse = glm::vec3(0.4f, 0.8f, 1.0f);
+    scene.materials[0].baseColor = glm::vec3(0.0f);
+    scene.materials[1].baseColor = glm::vec3(0.4f, 0.8f, 1.0f);
     return scene;
 }
 

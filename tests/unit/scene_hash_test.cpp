@@ -28,7 +28,7 @@ TEST_F(HashTest, EverythingThatChangesTheImageChangesIt) {
         [](Scene& s) { s.geometry.materials[0] = 1; },
         [](Scene& s) { s.geometry.normals[0].z = 0.5f; },
         [](Scene& s) { s.geometry.normalIndices[1].x = Geometry::kNoNormal; },
-        [](Scene& s) { s.materials[0].diffuse.y = 0.1f; },
+        [](Scene& s) { s.materials[0].baseColor.y = 0.1f; },
         [](Scene& s) { s.materials[0].sides = Sides::kFront; },
         [](Scene& s) { s.materials[0].emission.visible.z = 1.0f; },
         [](Scene& s) { s.materials[0].emission.sides = Sides::kBoth; },

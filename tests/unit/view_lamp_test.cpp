@@ -20,7 +20,7 @@ class LightTest : public SceneFiles {
         const Material& material = scene.materials[geometry.materials[first]];
         EXPECT_EQ(material.name, "default light");
         EXPECT_EQ(material.emission.visible, glm::vec3(0));
-        EXPECT_EQ(material.diffuse, glm::vec3(0));
+        EXPECT_EQ(material.baseColor, glm::vec3(0));
         const Camera& camera = scene.camera;
         const glm::vec3 forward = glm::normalize(camera.target - camera.position);
         for (std::size_t i = first; i < first + 2; ++i) {

@@ -75,7 +75,7 @@ TEST(ViewSurface, ManyTrianglesBecomeFewerWithoutHoles) {
 TEST(ViewSurface, IlluminationIsThatOfAFurnace) {
     SceneBuilder builder;
     Material material;
-    material.diffuse = glm::vec3(0.5f);
+    material.baseColor = glm::vec3(0.5f);
     material.emission.invisible = glm::vec3(2.0f);
     builder.sphere({0, 0, 0}, 1.0f, 2, Facing::kInward, builder.add(material));
     const Surface surface(builder.scene, builder.scene.geometry.triangles.size());

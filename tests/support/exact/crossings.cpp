@@ -60,7 +60,7 @@ ExactCase fromCentre(const char* name, const LightMatrix& first, const LightMatr
     const LightMatrix opaque{{0.3f, 0.5f, 0.2f}, {0.5f, 0.1f, 0.4f}, {0.7f, 0.2f, 0.6f}, {0.1f, 0.4f, 0.3f}};
     SceneBuilder builder;
     Material inner = pane("inner", first, kGlow[0]);
-    inner.diffuse = albedo;
+    inner.baseColor = albedo;
     inner.sides = Sides::kFront;
     inner.reflectance->opaque = opaque;
     builder.sphere(glm::vec3(0.0f), 1.0f, 1, Facing::kInward, builder.add(inner));

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "tests/support/closed_form.h"
 #include "tests/support/exact_case.h"
 #include "tests/support/scene_builder.h"
@@ -15,18 +17,29 @@ namespace {
 // One albedo a channel: each case is three.
 const glm::vec3 kAlbedo{0.1f, 0.5f, 0.8f};
 
+/// White metal, which returns everything.
+struct Metal {
+    float metallic, roughness;
+};
+
 struct Walls {
     Reflectance reflectance;
     std::uint32_t bounces = 0;
     Sides sides = Sides::kFront;  ///< both of f_opaque and of emission
     Emission emission{{1.0f, 0.5f, 2.0f}, {0.25f, 0.125f, 0.5f}, Sides::kFront};
+    std::optional<Metal> metal{};
 };
 
 ExactCase enclosure(std::string name, const Walls& walls) {
     SceneBuilder builder;
     Material material;
     material.name = "wall";
-    material.diffuse = kAlbedo;
+    const glm::vec3 albedo = walls.metal ? glm::vec3(1.0f) : kAlbedo;
+    material.baseColor = albedo;
+    if (walls.metal) {
+        material.metallic = walls.metal->metallic;
+        material.roughness = walls.metal->roughness;
+    }
     material.sides = walls.sides;
     material.emission = walls.emission;
     material.emission.sides = walls.sides;
@@ -36,7 +49,7 @@ ExactCase enclosure(std::string name, const Walls& walls) {
     scene.camera = {{0.3f, -0.2f, 0.4f}, {1.0f, 0.7f, -0.6f}, {0, 1, 0}, 80.0f};
     scene.render.width = scene.render.height = 32;
     scene.render.bounces = walls.bounces;
-    const ChannelMatrix scatter = scaled(kAlbedo, reference::channelsOf(walls.reflectance.opaque));
+    const ChannelMatrix scatter = scaled(albedo, reference::channelsOf(walls.reflectance.opaque));
     const ChannelLight emission = reference::channelsOf(walls.emission.invisible, walls.emission.visible);
     return {std::move(name), scene,
             uniformImage(32, 32, enclosureRadiance(scatter, emission, walls.bounces))};
@@ -80,6 +93,27 @@ std::vector<ExactCase> enclosureCases() {
                                                     24,
                                                     Sides::kFront,
                                                     {glm::vec3(0.0f), {1.0f, 2.0f, 0.5f}, Sides::kFront}}));
+    return cases;
+}
+
+std::vector<ExactCase> metalCases() {
+    // Half of what arrives is passed on at each bounce. The fits of multiple scattering are good to 1 %.
+    const Reflectance half{matrix(0.5f, 0.0f, 1.0f, 0.0f), {}};
+    const Emission emission = Walls{}.emission;
+    std::vector<ExactCase> cases;
+    const auto add = [&](const char* name, const Reflectance& reflectance, const Metal& metal) {
+        Walls walls{reflectance, 12, Sides::kFront, emission, metal};
+        cases.push_back(enclosure(std::string("EnclosureMetal") + name, walls));
+        cases.back().relative = 0.01;
+    };
+    add("Rough", half, {1.0f, 0.9f});
+    add("Glossy", half, {1.0f, 0.4f});
+    add("Mixed", half, {0.5f, 0.6f});
+    add("Crossed", {half.opaque, matrix(0.5f, 0.0f, 0.0f, 0.0f)}, {1.0f, 0.7f});
+    // Exact, but no light path can be connected to the camera from a mirror.
+    add("Mirror", half, {1.0f, 0.0f});
+    cases.back().relative = 1e-5;
+    cases.back().onePoint = true;
     return cases;
 }
 

@@ -24,7 +24,7 @@ constexpr double kAlbedo = 0.5;
 Material furnaceMaterial(const char* name, const LightMatrix& transparent, double lean) {
     Material material;
     material.name = name;
-    material.diffuse = glm::vec3(static_cast<float>(kAlbedo));
+    material.baseColor = glm::vec3(static_cast<float>(kAlbedo));
     material.reflectance = Reflectance{{}, transparent};
     LightMatrix& o = material.reflectance->opaque;
     material.emission.sides = Sides::kBoth;

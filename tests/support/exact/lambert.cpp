@@ -76,7 +76,7 @@ ExactCase floorImage(const Floor& setup) {
     SceneBuilder builder;
     Material floor, lamp;
     floor.name = "floor";
-    floor.diffuse = {0.9f, 0.6f, 0.3f};
+    floor.baseColor = {0.9f, 0.6f, 0.3f};
     lamp.name = "lamp";
     lamp.emission = {{4.0f, 3.0f, 4.0f}, {0.0f, 1.0f, 0.0f}, Sides::kFront};
     const std::uint32_t floorIndex = builder.add(floor), lampIndex = builder.add(lamp);
@@ -97,7 +97,7 @@ ExactCase floorImage(const Floor& setup) {
     scene.camera = {{1.5f, 1.1f, 3.0f}, {-1.0f, 0.0f, 0.5f}, {0, 1, 0}, 24.0f};
     scene.render.width = scene.render.height = kSize;
     scene.render.bounces = 1;
-    const ChannelMatrix scatter = scaled(floor.diffuse, reference::channelsOf(setup.reflectance.opaque));
+    const ChannelMatrix scatter = scaled(floor.baseColor, reference::channelsOf(setup.reflectance.opaque));
     const ChannelLight seen = (1.0 / std::numbers::pi) * (up * scatter * down * light(lamp.emission));
 
     // Midpoint rule over each pixel's footprint.

@@ -12,7 +12,7 @@ std::vector<Vec3> downwardRectangle(double x0, double x1, double z0, double z1, 
 ReceiverScene::ReceiverScene(const Receiver& receiver, glm::vec3 eye) : receiver_(receiver) {
     Material material;
     material.name = "receiver";
-    material.diffuse = receiver.albedo;
+    material.baseColor = receiver.albedo;
     material.sides = receiver.sides;
     material.reflectance = receiver.reflectance;
     const std::uint32_t index = builder_.add(material);

@@ -2,7 +2,8 @@
 
 #include <numeric>
 
-#include "host/gpu/lights.h"
+#include "host/gpu/emitter_table.h"
+#include "host/scene/emitters.h"
 
 namespace duolux {
 namespace {
@@ -40,29 +41,48 @@ Scene twoEmitters() {
     return scene;
 }
 
-TEST(LightTable, DensityIsPowerOverTotalPower) {
-    const LightTable table = buildLightTable(twoEmitters(), false);
-    ASSERT_EQ(table.lights.size(), 2u);
+EmitterTable tableOf(const Scene& scene, bool bothComponents) {
+    return buildEmitterTable(scene, emittingTriangles(scene), bothComponents);
+}
+
+TEST(EmitterTable, DensityIsPowerOverTotalPower) {
+    const EmitterTable table = tableOf(twoEmitters(), false);
+    ASSERT_EQ(table.records.size(), 2u);
+    EXPECT_EQ(table.choices, 2u);
     // Areas 0.5 and 2; brightness 9 and 3, the latter on both sides: powers 4.5 and 12.
-    EXPECT_FLOAT_EQ(table.pdfArea[0], 9.0f / 16.5f);
-    EXPECT_FLOAT_EQ(table.pdfArea[1], 6.0f / 16.5f);
-    EXPECT_FLOAT_EQ(table.pdfArea[2], 0.0f);
+    EXPECT_FLOAT_EQ(table.records[0].density, 9.0f / 16.5f);
+    EXPECT_FLOAT_EQ(table.records[1].density, 6.0f / 16.5f);
     // The density integrates to 1 over the emitters.
-    EXPECT_FLOAT_EQ(0.5f * table.pdfArea[0] + 2.0f * table.pdfArea[1], 1.0f);
+    EXPECT_FLOAT_EQ(0.5f * table.records[0].density + 2.0f * table.records[1].density, 1.0f);
 }
 
-TEST(LightTable, VisibleEmissionCountsWhereItCanReachSurfaces) {
-    const LightTable table = buildLightTable(twoEmitters(), true);
+TEST(EmitterTable, VisibleEmissionCountsWhereItCanReachSurfaces) {
+    const EmitterTable table = tableOf(twoEmitters(), true);
     // Brightness 9 and 18 on both sides: powers 4.5 and 72.
-    EXPECT_FLOAT_EQ(table.pdfArea[1], 36.0f / 76.5f);
+    EXPECT_FLOAT_EQ(table.records[1].density, 36.0f / 76.5f);
 }
 
-TEST(LightTable, OfASceneWithVisibleEmissionOnlyIsEmpty) {
+// What emits only visible light is recorded, because the camera sees it, but not sampled.
+TEST(EmitterTable, VisibleEmissionAloneGivesNothingToChooseFrom) {
     Scene scene = twoEmitters();
     for (Material& material : scene.materials)
         material.emission.invisible = glm::vec3(0.0f);
-    EXPECT_TRUE(buildLightTable(scene, false).lights.empty());
-    EXPECT_EQ(buildLightTable(scene, true).lights.size(), 1u);
+    const EmitterTable invisible = tableOf(scene, false);
+    EXPECT_EQ(invisible.choices, 0u);
+    ASSERT_EQ(invisible.records.size(), 1u);
+    EXPECT_EQ(invisible.records[0].visible, glm::vec3(5.0f));
+    EXPECT_EQ(invisible.records[0].density, 0.0f);
+    EXPECT_EQ(tableOf(scene, true).choices, 1u);
+}
+
+// Emitters first, in their order, then the remaining triangles in theirs.
+TEST(TriangleRanks, EmittersComeFirst) {
+    const std::vector<std::uint32_t> emitters{2, 3, 7};
+    const TriangleRanks ranks(emitters);
+    const std::vector<std::uint32_t> expected{3, 4, 0, 1, 5, 6, 7, 2, 8};
+    for (std::uint32_t i = 0; i < expected.size(); ++i)
+        EXPECT_EQ(ranks.rankOf(i), expected[i]) << i;
+    EXPECT_EQ(TriangleRanks({}).rankOf(5), 5u);
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "host/gpu/lights.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "host/gpu/emitter_table.h"
+#include "host/scene/emitters.h"
 #include "tests/shader/density.h"
 #include "tests/shader/mirror_types.h"
 #include "tests/support/scene_builder.h"
@@ -19,7 +19,8 @@
 namespace duolux::test {
 namespace {
 
-using mirror::single::LightSample;
+using mirror::single::EmitterChoice;
+using mirror::single::EmitterPoint;
 using reference::Vec3;
 
 /// Emitting triangles with many sizes and radiances, each with its own material, among triangles that do not
@@ -72,13 +73,35 @@ std::vector<Emitter> emittersOf(const Scene& scene) {
     return out;
 }
 
-const char* const kNoPlanes = "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }";
+const char* const kNoScene =
+    "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }"
+    "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }"
+    "uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }";
 
-ShaderLibrary lightsOf(const std::vector<shared::DeviceLight>& lights) {
-    ShaderLibrary library("shaders/lib/lights.glsl");
-    library.texels("fetchLightTexel", std::span(lights));
-    library.define(kNoPlanes);
+using Records = std::vector<shared::DeviceEmitter>;
+
+ShaderLibrary emitters(const Records& records) {
+    ShaderLibrary library("shaders/lib/emitter.glsl");
+    library.texels("fetchEmitterTexel", std::span(records));
+    library.define(kNoScene);
     return library;
+}
+
+EmitterTable tableOf(const Scene& scene) {
+    return buildEmitterTable(scene, emittingTriangles(scene), true);
+}
+
+/// Which emitters the words choose.
+std::vector<EmitterChoice> chooseFrom(const Records& records, const std::vector<glm::uvec2>& words) {
+    return emitters(records).call<EmitterChoice>("chooseEmitter", static_cast<std::uint32_t>(records.size()),
+                                                 words);
+}
+
+/// Points on the chosen emitters.
+std::vector<EmitterPoint> pointsOn(const Records& records, const std::vector<glm::uvec2>& words) {
+    return emitters(records).evaluate<EmitterPoint>(
+        "EmitterChoice c = chooseEmitter(x0, x1); result = pointOnEmitter(fetchEmitter(c.index), c.u);",
+        static_cast<std::uint32_t>(records.size()), words);
 }
 
 std::vector<glm::uvec2> randomWords(std::size_t count, std::uint32_t seed) {
@@ -92,25 +115,24 @@ std::vector<glm::uvec2> randomWords(std::size_t count, std::uint32_t seed) {
 constexpr double kAlpha = 1e-4;  // of each family below
 
 // Chi-square over the emitters, of 52 points each or many more; 4 tests, level 1e-4 of all.
-TEST(SampleLight, PicksEmittersByPower) {
+TEST(ChooseEmitter, PicksEmittersByPower) {
     for (const std::size_t count : {1u, 2u, 7u, 1000u, 20011u}) {
         const Scene scene = randomEmitters(count, 17);
-        const std::vector<Emitter> emitters = emittersOf(scene);
-        const LightTable table = buildLightTable(scene, true);
-        ASSERT_EQ(table.lights.size(), count);
-        const auto samples = lightsOf(table.lights)
-                                 .call<LightSample>("sampleLight", static_cast<std::uint32_t>(count),
-                                                    randomWords(count > 1000 ? 1 << 20 : 1 << 17, 5));
+        const std::vector<Emitter> expectedOf = emittersOf(scene);
+        const EmitterTable table = tableOf(scene);
+        ASSERT_EQ(table.records.size(), count);
+        const auto choices = chooseFrom(table.records, randomWords(count > 1000 ? 1 << 20 : 1 << 17, 5));
         std::vector<double> observed(count), expected(count);
-        for (const LightSample& s : samples) {
-            ASSERT_TRUE(s.material >= 1 && s.material <= count);
-            observed[s.material - 1] += 1.0;
+        for (const EmitterChoice& c : choices) {
+            ASSERT_LT(c.index, count);
+            observed[c.index] += 1.0;
         }
         for (std::size_t i = 0; i < count; ++i) {
-            expected[i] = emitters[i].chance * static_cast<double>(samples.size());
+            expected[i] = expectedOf[i].chance * static_cast<double>(choices.size());
             // The density that the kernels know is that chance per unit of area.
-            EXPECT_NEAR(static_cast<double>(table.pdfArea[i + 1]) * emitters[i].area / emitters[i].chance,
-                        1.0, 1e-6);
+            EXPECT_NEAR(
+                static_cast<double>(table.records[i].density) * expectedOf[i].area / expectedOf[i].chance,
+                1.0, 1e-6);
         }
         if (count == 1) continue;  // always chosen
         const ChiSquare test = chiSquare(observed, expected);
@@ -121,56 +143,54 @@ TEST(SampleLight, PicksEmittersByPower) {
 
 // Which emitter a word picks, decided in 64-bit integers: all 32 bits count, those that have not chosen the
 // entry of the table decide about its alias.
-TEST(SampleLight, EveryBitDecides) {
+TEST(ChooseEmitter, EveryBitDecides) {
     const std::uint32_t count = 20011;
-    std::vector<shared::DeviceLight> lights = buildLightTable(randomEmitters(count, 18), true).lights;
+    const Records records = tableOf(randomEmitters(count, 18)).records;
     std::vector<glm::uvec2> us = randomWords(1 << 18, 6);
     for (std::uint32_t i = 0; i < count; ++i) {
         // The last word that keeps light i, and the first that does not; or as near as words come.
         const std::uint64_t edge =
             (std::uint64_t{i} << 32) +
-            static_cast<std::uint64_t>(static_cast<double>(lights[i].threshold) * 0x1p32);
+            static_cast<std::uint64_t>(static_cast<double>(records[i].threshold) * 0x1p32);
         const auto word = static_cast<std::uint32_t>(std::min<std::uint64_t>(edge / count, 0xffffffffu));
         us.insert(us.end(), {{word, 0u}, {word + 1u, 0u}});
     }
-    const auto samples = lightsOf(lights).call<LightSample>("sampleLight", count, us);
+    const auto choices = chooseFrom(records, us);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < us.size(); ++i) {
         const std::uint64_t product = std::uint64_t{us[i].x} * count;
         const std::uint64_t index = product >> 32;
         const std::uint64_t fraction = (product & 0xffffffffu) >> 8;  // in units of 2^-24
         const bool keep =
-            static_cast<double>(fraction) < static_cast<double>(lights[index].threshold) * 0x1p24;
+            static_cast<double>(fraction) < static_cast<double>(records[index].threshold) * 0x1p24;
         kept += keep ? 1 : 0;
-        const std::uint64_t picked = keep ? index : lights[index].alias;
-        ASSERT_EQ(samples[i].material, lights[picked].material) << us[i].x;
+        const std::uint64_t picked = keep ? index : records[index].alias;
+        ASSERT_EQ(choices[i].index, picked) << us[i].x;
     }
     EXPECT_GT(kept, us.size() / 4);
     EXPECT_LT(kept, us.size() * 7 / 8);
 }
 
-/// Lights on the triangle (0,0), (1,0), (0,1) of the planes z = index, with these entries of the alias table.
-std::vector<shared::DeviceLight> stackedLights(const std::vector<AliasEntry>& table) {
-    std::vector<shared::DeviceLight> lights;
+/// Emitters on the triangle (0,0), (1,0), (0,1) of the planes z = index, with these entries of the alias
+/// table.
+Records stackedEmitters(const std::vector<AliasEntry>& table) {
+    Records records;
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         const auto z = static_cast<float>(i);
-        lights.push_back({{0, 0, z},
-                          i,
-                          {1, 0, z},
-                          0.25f * static_cast<float>(i),
-                          {0, 1, z},
-                          0,
-                          table[i].threshold,
-                          table[i].alias,
-                          0,
-                          0});
+        shared::DeviceEmitter& record = records.emplace_back();
+        record.v0 = {0, 0, z};
+        record.v1 = {1, 0, z};
+        record.v2 = {0, 1, z};
+        record.positionError = 0.25f * z;
+        record.threshold = table[i].threshold;
+        record.alias = table[i].alias;
     }
-    return lights;
+    return records;
 }
 
 // Thresholds 0 and 1, and a word that is at the threshold itself, which keeps nothing.
-TEST(SampleLight, ThresholdsByHand) {
-    const auto lights = stackedLights({{0.0f, 3}, {1.0f, 3}, {0.5f, 3}, {1.0f, 3}});
+TEST(ChooseEmitter, ThresholdsByHand) {
+    const Records records = stackedEmitters({{0.0f, 3}, {1.0f, 3}, {0.5f, 3}, {1.0f, 3}});
     std::vector<glm::uvec2> us;
     std::vector<std::uint32_t> expected;
     for (const std::uint32_t bits : {0u, 1u, 0x1fffffffu, 0x20000000u, 0x3fffffffu}) {
@@ -179,13 +199,14 @@ TEST(SampleLight, ThresholdsByHand) {
             expected.push_back(i == 0 || (i == 2 && bits >= 0x20000000u) ? 3 : i);
         }
     }
-    const auto samples = lightsOf(lights).call<LightSample>("sampleLight", 4u, us);
+    const auto choices = chooseFrom(records, us);
+    const auto points = pointsOn(records, us);
     for (std::size_t i = 0; i < us.size(); ++i) {
-        EXPECT_EQ(samples[i].material, expected[i]) << i;
-        EXPECT_EQ(samples[i].position.z, static_cast<float>(expected[i])) << i;
-        EXPECT_EQ(samples[i].positionError, 0.25f * static_cast<float>(expected[i])) << i;
-        EXPECT_TRUE(samples[i].position.x >= 0.0f && samples[i].position.y >= 0.0f &&
-                    samples[i].position.x + samples[i].position.y <= 1.0f)
+        EXPECT_EQ(choices[i].index, expected[i]) << i;
+        EXPECT_EQ(points[i].position.z, static_cast<float>(expected[i])) << i;
+        EXPECT_EQ(points[i].positionError, 0.25f * static_cast<float>(expected[i])) << i;
+        EXPECT_TRUE(points[i].position.x >= 0.0f && points[i].position.y >= 0.0f &&
+                    points[i].position.x + points[i].position.y <= 1.0f)
             << i;
     }
 }
@@ -193,16 +214,17 @@ TEST(SampleLight, ThresholdsByHand) {
 // What is left of the first word after the choice is uniform again, be an emitter kept or taken as an alias:
 // points have the density 2 on the triangle. With s = x + y, (s^2, y / s) is uniform on the unit square.
 // Three tests, level 1e-4 of all.
-TEST(SampleLight, PointsAreUniformOnTheTriangle) {
-    const auto lights = stackedLights({{0.3f, 1}, {1.0f, 0}});
+TEST(ChooseEmitter, PointsAreUniformOnTheTriangle) {
+    const Records records = stackedEmitters({{0.3f, 1}, {1.0f, 0}});
     const std::vector<glm::uvec2> us = randomWords(1 << 20, 7);
-    const auto samples = lightsOf(lights).call<LightSample>("sampleLight", 2u, us);
+    const auto choices = chooseFrom(records, us);
+    const auto samples = pointsOn(records, us);
     std::array<std::vector<glm::dvec2>, 3> points;
     for (std::size_t i = 0; i < us.size(); ++i) {
         const double x = static_cast<double>(samples[i].position.x);
         const double y = static_cast<double>(samples[i].position.y);
         const double s = x + y;
-        const std::size_t way = us[i].x >= 0x80000000u ? 0 : samples[i].material == 0 ? 1 : 2;
+        const std::size_t way = us[i].x >= 0x80000000u ? 0 : choices[i].index == 0 ? 1 : 2;
         points[way].emplace_back(std::min(s * s, 1.0), s > 0.0 ? y / s : 0.0);
     }
     const std::array<const char*, 3> names{"light-always-kept", "light-kept", "light-by-alias"};
@@ -212,13 +234,16 @@ TEST(SampleLight, PointsAreUniformOnTheTriangle) {
             sidakLevel(kAlpha, 3));
 }
 
-TEST(SampleLight, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
+TEST(ChooseEmitter, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
     const Scene scene = randomEmitters(500, 19);
-    const std::vector<Emitter> emitters = emittersOf(scene);
-    const LightTable table = buildLightTable(scene, true);
-    const auto samples = lightsOf(table.lights).call<LightSample>("sampleLight", 500u, randomWords(20000, 8));
-    for (const LightSample& s : samples) {
-        const Emitter& e = emitters[s.material - 1];
+    const std::vector<Emitter> expected = emittersOf(scene);
+    const Records records = tableOf(scene).records;
+    const std::vector<glm::uvec2> words = randomWords(20000, 8);
+    const auto choices = chooseFrom(records, words);
+    const auto points = pointsOn(records, words);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const EmitterPoint& s = points[i];
+        const Emitter& e = expected[choices[i].index];
         const Vec3 across = glm::cross(e.v1 - e.v0, e.v2 - e.v0);
         // To the side from which the corners run counter-clockwise. Flat triangles lose digits.
         const double flat = glm::length(e.v1 - e.v0) * glm::length(e.v2 - e.v0) / glm::length(across);
@@ -232,7 +257,7 @@ TEST(SampleLight, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
         const double c = glm::dot(glm::cross(e.v1 - e.v0, p), glm::normalize(across));
         const double slack = error * (glm::length(e.v1 - e.v0) + glm::length(e.v2 - e.v0));
         ASSERT_GE(std::min({b, c, 2.0 * e.area - b - c}), -slack);
-        ASSERT_EQ(s.positionError, table.lights[s.material - 1].positionError);
+        ASSERT_EQ(s.positionError, records[choices[i].index].positionError);
     }
 }
 
@@ -244,24 +269,17 @@ TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
     glm::dvec3 power(0.0);
     for (const Emitter& e : emittersOf(scene))
         power += e.power;
-    const LightTable table = buildLightTable(scene, true);
-    std::vector<glm::vec2> densityAndSides;
-    for (std::size_t m = 0; m < scene.materials.size(); ++m)
-        densityAndSides.emplace_back(table.pdfArea[m],
-                                     scene.materials[m].emission.sides == Sides::kBoth ? 2.0f : 1.0f);
-    const auto samples =
-        lightsOf(table.lights)
-            .call<LightSample>("sampleLight", static_cast<std::uint32_t>(table.lights.size()),
-                               randomWords(1 << 18, 9));
+    const Records records = tableOf(scene).records;
+    const auto samples = chooseFrom(records, randomWords(1 << 18, 9));
     std::vector<float> density, sides;
-    for (const LightSample& s : samples) {
-        density.push_back(densityAndSides[s.material].x);
-        sides.push_back(densityAndSides[s.material].y);
+    for (const EmitterChoice& c : samples) {
+        density.push_back(records[c.index].density);
+        sides.push_back((records[c.index].flags & shared::kEmitterBack) != 0 ? 2.0f : 1.0f);
     }
-    const auto flux = lightsOf(table.lights).call<float>("emittedFlux", density, sides);
+    const auto flux = emitters(records).call<float>("emittedFlux", density, sides);
     glm::dvec3 sum(0.0), squares(0.0);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Emission& e = scene.materials[samples[i].material].emission;
+        const Emission& e = scene.materials[samples[i].index + 1].emission;
         const glm::dvec3 carried =
             (glm::dvec3(e.invisible) + glm::dvec3(e.visible)) * static_cast<double>(flux[i]);
         ASSERT_NEAR((carried.x + carried.y + carried.z) / (power.x + power.y + power.z), 1.0, 1e-6);
@@ -282,7 +300,7 @@ TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
 TEST(PdfAreaToSolidAngle, IntegratesToOneOverDirections) {
     std::mt19937 engine(21);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    const ShaderLibrary library = lightsOf(stackedLights({{1.0f, 0}}));
+    const ShaderLibrary library = emitters(stackedEmitters({{1.0f, 0}}));
     for (int t = 0; t < 20; ++t) {
         // Seen from the origin, at distance 1 and more along -z, of either winding, also from aside.
         std::array<Vec3, 3> v;
@@ -324,7 +342,7 @@ TEST(PdfAreaToSolidAngle, IntegratesToOneOverDirections) {
     }
 }
 
-TEST(LightsOracles, Densities) {
+TEST(EmitterOracles, Densities) {
     std::mt19937 engine(22);
     std::uniform_real_distribution<float> uniform(-30.0f, 30.0f);
     std::vector<float> a, b, cosine, sides;
@@ -334,7 +352,7 @@ TEST(LightsOracles, Densities) {
         cosine.push_back(i % 16 == 0 ? 0.0f : uniform(engine) / 30.0f);
         sides.push_back(i % 2 == 0 ? 1.0f : 2.0f);
     }
-    const ShaderLibrary library = lightsOf(stackedLights({{1.0f, 0}}));
+    const ShaderLibrary library = emitters(stackedEmitters({{1.0f, 0}}));
     EXPECT_ORACLES(library, balanceHeuristic, (Budget{4, 0}), a, b);
     EXPECT_ORACLES(library, pdfAreaToSolidAngle, (Budget{4, 0}), a, b, cosine);
     std::vector<float> positive = a;
@@ -343,20 +361,20 @@ TEST(LightsOracles, Densities) {
     EXPECT_ORACLES(library, emittedFlux, (Budget{4, 0}), positive, sides);
 }
 
-TEST(LightsOracles, Samples) {
-    const LightTable table = buildLightTable(randomEmitters(500, 23), true);
-    mirror::texels().lights.resize(table.lights.size() * shared::kLightTexels);
-    std::memcpy(mirror::texels().lights.data(), table.lights.data(),
-                std::as_bytes(std::span(table.lights)).size());
-    const ShaderLibrary library = lightsOf(table.lights);
+TEST(EmitterOracles, Samples) {
+    const Records records = tableOf(randomEmitters(500, 23)).records;
+    mirror::texels().emitters.resize(records.size() * shared::kEmitterTexels);
+    std::memcpy(mirror::texels().emitters.data(), records.data(), std::as_bytes(std::span(records)).size());
+    const ShaderLibrary library = emitters(records);
     std::vector<std::uint32_t> indices(500);
     for (std::uint32_t i = 0; i < 500; ++i)
         indices[i] = i;
-    EXPECT_ORACLES(library, fetchLight, (Budget{0, 0}), indices);
-    // The choice is exact in all three: of a word, and of a product of two. Coordinates reach 11; a normal of
-    // a flat triangle, and the rest of a random number within a small threshold, lose digits.
+    EXPECT_ORACLES(library, fetchEmitter, (Budget{0, 0}), indices);
+    EXPECT_ORACLES(library, fetchAliasEntry, (Budget{0, 0}), indices);
+    // The choice is exact in all three: of a word, and of a product of two. The rest of a random number
+    // within a small threshold loses digits.
     std::vector<std::uint32_t> counts(20000, 500u);
-    EXPECT_ORACLES(library, sampleLight, (Budget{2, 4e-6}), counts, randomWords(20000, 10));
+    EXPECT_ORACLES(library, chooseEmitter, (Budget{2, 4e-6}), counts, randomWords(20000, 10));
 }
 
 }  // namespace

@@ -1,0 +1,114 @@
+// Connections of light paths to the camera, and the sums of the film that they add to.
+
+// Component that surfaces may scatter or pass on, the largest channel: without second columns the visible one is lost
+// on all but the camera.
+float carried(Light l) { return maxComponent(l.invisible + (kSecondColumn ? l.visible : vec3(0.0))); }
+
+// How much light counts in a pixel.
+float rowWeighted(Light l) { return maxComponent(params.rowWeight.x * l.invisible + params.rowWeight.y * l.visible); }
+
+// Russian roulette on connections, where only a part of their worth is left.
+float connectionSurvival(float left, float whole) { return min(left / whole, 1.0); }
+
+float channelMean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
+
+// Adds to one sum of the film; whether that was beyond the range of 63 bits before.
+bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
+#ifdef DUOLUX_INT64_ATOMICS
+    return unpackUint2x32(atomicAdd(film[band].sums[index], packUint2x32(quanta))).y >= 0x80000000u;
+#else
+    uint before = atomicAdd(film[band].sums[index].x, quanta.x);
+    return atomicAdd(film[band].sums[index].y, quanta.y + (before + quanta.x < before ? 1u : 0u)) >= 0x80000000u;
+#endif
+}
+
+// `stream`: of the light path.
+void splat(inout LaneSums sums, Light light, Connection connection, uvec2 stream) {
+    uint pixel = connection.pixel;
+    vec3 total = light.invisible + light.visible;
+    float sum = total.x + total.y + total.z;
+    // Not the other way round: NaN is to be dropped.
+    bool fine = sum < kLargestRadiance;
+    sums.nonFinite += fine ? 0u : 1u;
+    if (!fine) return;
+    sums.clamped += sum * dispatch.inverseQuantum >= kFilmLargest ? 1u : 0u;
+    uint index = (kFilmBands > 1u ? pixel % kBandPixels : pixel) * kFilmSums;
+    uvec2[kFilmSums] quanta;
+    FilmRounding u = filmRounding(stream.x, stream.y, connection.dimension, params.seed);
+    for (int c = 0; c < 3; c++) {
+        quanta[c] = filmQuantise(light.invisible[c], dispatch.inverseQuantum, u.invisible[c]);
+        quanta[c + 3] = filmQuantise(light.visible[c], dispatch.inverseQuantum, u.visible[c]);
+    }
+    for (uint band = 0u; band < kFilmBands; band++) {
+        if (kFilmBands == 1u || pixel / kBandPixels == band) {
+            uint beyond = 0u;
+            for (uint i = 0u; i < kFilmSums; i++) beyond |= filmAtomicAdd(band, index + i, quanta[i]) ? 1u << i : 0u;
+            // A sum beyond the range stays there, but must not get as far as 2^64, where it would begin again: what
+            // finds it there takes away what it has added. So a sum ends up beyond the range if and only if the exact
+            // one does, in whatever order; the host knows it by its sign.
+            while (beyond != 0u) {
+                uint i = uint(findLSB(beyond));
+                beyond &= beyond - 1u;
+                filmAtomicAdd(band, index + i, filmNegate(quanta[i]));
+            }
+        }
+    }
+
+    vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
+    float mean = channelMean(displayed);
+    float inverseUnit = dispatch.inverseQuantum * (1.0 / kStatisticsQuanta);
+    uint scatterings = connection.scatterings;
+    if (scatterings == params.bounces) sums.lastBounce = filmAddSigned(sums.lastBounce, mean, inverseUnit);
+    if (scatterings + 1u == params.bounces) sums.previousBounce = filmAddSigned(sums.previousBounce, mean, inverseUnit);
+    sums.invisible = filmAddSigned(sums.invisible, channelMean(light.invisible), inverseUnit);
+    sums.visible = filmAddSigned(sums.visible, channelMean(light.visible), inverseUnit);
+}
+
+vec3 directionToCamera(vec3 point) { return connectToCamera(params.camera, point).direction; }
+
+// Sets up a ray to the camera.
+void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
+    CameraConnection camera = connectToCamera(params.camera, outgoing.point.position);
+    float cosine = max(dot(outgoing.point.geometricNormal, camera.direction), 0.0);
+    Light arriving = lightScale(outgoing.intensity, vec3(cosine * camera.importance));
+    // Light that counts less than its brightness, by components that are not displayed, is connected less often.
+    float brightness = maxComponent(max(arriving.invisible, arriving.visible));
+    float worth = max(params.rowWeight.x, params.rowWeight.y) * brightness;
+    float survival = connectionSurvival(rowWeighted(arriving), worth);
+    // So is what a surface sends in a flat direction, which is dim by the cosine: a sixth of the rays for 6 to 8 % of
+    // variance.
+    survival *= outgoing.scatterings > 0u ? min(3.0 * cosine, 1.0) : 1.0;
+    uint dimension = sampleDimension(outgoing.scatterings, path.crossings, kDimensionCamera);
+    float roulette = drawChoice(path.stream, dimension).x;
+    // Not the other way round: what is not a number is traced, and counted when it arrives.
+    connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
+    connection.segment = leaveSurface(outgoing.point, camera.direction);
+    connection.distance = camera.distance;
+    connection.light = arriving;
+    connection.roulette = roulette;
+    connection.survival = survival;
+    connection.pixel = camera.pixel;
+    connection.scatterings = outgoing.scatterings;
+    connection.dimension = dimension;
+}
+
+// The ray to the camera has met a surface, or nothing more.
+void continueConnection(inout Connection connection, inout LaneSums sums, uvec2 stream, Traversal ray, bool found,
+                        uint material) {
+    if (kCameraTransmittance == kTransmittanceGeneral && found) {
+        float before = rowWeighted(connection.light);
+        Light through = lightApply(transparentOf(material), connection.light);
+        // Roulette where what is displayed is lost, by the same number all along the ray.
+        connection.survival *= connectionSurvival(rowWeighted(through), before);
+        connection.light = through;
+        crossSurface(connection.segment, ray);
+        connection.pending = connection.roulette < connection.survival;
+        return;
+    }
+    Light light = connection.light;
+    // Surfaces that pass on the invisible component as it is, and nothing of the visible one.
+    if (found) light = Light(kCameraTransmittance == kTransmittanceIdentity ? light.invisible : vec3(0.0), vec3(0.0));
+    light = lightScale(light, vec3(1.0 / connection.survival));
+    if (maxComponent(light.invisible + light.visible) != 0.0) splat(sums, light, connection, stream);
+    connection.pending = false;
+}

@@ -1,0 +1,73 @@
+// Direct light at the vertices of the path tracer: next-event estimation by shadow rays or, where nothing can be in
+// between, at once; or the closed form.
+
+// A shadow ray in flight.
+struct Shadow {
+    bool pending;
+    Segment segment;
+    float distance;          // to the emitter; its order if surfaces coincide with it
+    uint beforeOrder;
+    LightMatrix importance;  // W O f cos / pdf and what was crossed so far (kTransmittanceGeneral)
+    Light emission;          // of the emitter (kTransmittanceGeneral), otherwise the contribution if nothing is in between
+    uint scatterings;        // events on the whole path, for the statistics
+};
+
+void gather(inout Gathered gathered, Light light, uint scatterings) {
+    gather(gathered, light, scatterings, params.bounces, params.display);
+}
+
+// `importance`: W O at the vertex.
+void connectToEmitter(inout Shadow shadow, inout Gathered gathered, SurfaceHit hit, LightMatrix importance, vec3 wo,
+                      uvec2 words, uint scatterings) {
+    EmitterSample light = sampleEmitter(params.emitterCount, hit.point.position, words);
+    BsdfFrame frame = frameOf(hit.point);
+    vec3 f = bsdfEvaluate(hit.material.bsdf, frame, wo, light.wi, kModeRadiance);
+    // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf.
+    float weight = 1.0 / (light.pdf + bsdfPdf(hit.material.bsdf, frame, wo, light.wi, kModeRadiance));
+    LightMatrix reflected = lightScale(importance, f * (bsdfCosine(frame, light.wi, kModeRadiance) * weight));
+    Light contribution = lightApply(reflected, light.emission);
+    bool contributes = light.distance > 0.0 && maxComponent(contribution.invisible + contribution.visible) > 0.0;
+    if (kTransmittance == kTransmittanceIdentity) {
+        if (contributes) gather(gathered, contribution, scatterings);
+    } else if (contributes) {
+        shadow.pending = true;
+        shadow.segment = leaveSurface(hit.point, light.wi);
+        shadow.distance = light.distance;
+        shadow.beforeOrder = kNoTriangle;
+        if (light.coincident != kNoTriangle) {
+            Plane plane = fetchPlane(light.coincident);
+            shadow.distance = planeDistance(plane, shadow.segment.origin, light.wi);
+            shadow.beforeOrder = orderOfSurface(light.emitter, dot(plane.normal, light.wi) < 0.0);
+        }
+        shadow.scatterings = scatterings;
+        if (kTransmittance == kTransmittanceGeneral) {
+            shadow.importance = reflected;
+            shadow.emission = light.emission;
+        } else {
+            shadow.emission = contribution;
+        }
+    }
+}
+
+// Light from all emitters on a diffuse vertex.
+void gatherClosedForm(inout Gathered gathered, SurfaceHit hit, LightMatrix importance, uint scatterings) {
+    Light total = irradianceFromEmitters(params.emitterCount, hit.point.position, hit.point.shadingNormal);
+    LightMatrix reflected = lightScale(importance, diffuseEvaluate(hit.material.bsdf));
+    gather(gathered, lightApply(reflected, total), scatterings);
+}
+
+// The shadow ray has met a surface, or nothing more up to the emitter.
+void continueShadow(inout Shadow shadow, inout Gathered gathered, Traversal ray, bool found, uint material) {
+    if (kTransmittance == kTransmittanceGeneral && found) {
+        LightMatrix m = multiply(shadow.importance, transparentOf(material));
+        shadow.importance = m;
+        crossSurface(shadow.segment, ray);
+        shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
+        return;
+    }
+    if (!found) {
+        bool general = kTransmittance == kTransmittanceGeneral;
+        gather(gathered, general ? lightApply(shadow.importance, shadow.emission) : shadow.emission, shadow.scatterings);
+    }
+    shadow.pending = false;
+}

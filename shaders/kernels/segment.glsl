@@ -1,0 +1,48 @@
+// What both integrators do along a segment of a path.
+#include "shaders/lib/material.glsl"
+#include "shaders/lib/vertex.glsl"
+
+// A surface that a ray along a segment has met.
+struct SurfaceHit {
+    uint materialIndex;
+    Material material;
+    SurfacePoint point;
+    bool front;          // the ray arrives at the triangle's front
+    float cosine;        // between the ray and the normal of the front
+};
+
+// `crossings`: surfaces crossed on the segment before.
+SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle tri) {
+    SurfaceHit hit;
+    hit.materialIndex = tri.materialFlags & kMaterialMask;
+    hit.material = fetchMaterial(hit.materialIndex);
+    vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
+    hit.cosine = dot(normal, segment.direction);
+    hit.front = hit.cosine < 0.0;
+    bool behindOthers = kPlanes && crossings > 0u && segment.t == ray.t;
+    hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
+    hit.point = placedByPlane(hit.point, segment.origin + segment.direction * ray.t, behindOthers);
+    return hit;
+}
+
+// The segment continues behind the surface that the ray has met.
+void crossSurface(inout Segment segment, Traversal ray) {
+    segment.t = ray.t;
+    segment.order = ray.order;
+}
+
+// A path's random numbers for a purpose. `stream` identifies the path: its pixel or number, and the sample.
+uvec2 drawWords(uvec2 stream, uint dimension) {
+    return sampleWords(kSampler, stream.x, stream.y, dimension, params.seed);
+}
+vec2 drawPair(uvec2 stream, uint dimension) {
+    return samplePair(kSampler, stream.x, stream.y, dimension, params.seed);
+}
+vec2 drawChoice(uvec2 stream, uint dimension) { return sampleChoice(stream.x, stream.y, dimension, params.seed); }
+
+// A direction in which a path leaves a vertex.
+BsdfSample scatter(Vertex vertex, vec3 wo, uvec2 stream, uint scatterings, uint mode) {
+    vec2 u = drawPair(stream, sampleDimension(scatterings, 0u, kDimensionDirection));
+    float lobe = kOnlyDiffuse ? 0.0 : drawChoice(stream, sampleDimension(scatterings, 0u, kDimensionDirection)).x;
+    return bsdfSample(vertex.bsdf, frameOf(vertex.point), wo, lobe, u, mode);
+}

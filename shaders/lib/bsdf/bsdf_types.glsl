@@ -1,0 +1,53 @@
+// What every lobe in this folder takes and returns.
+#ifndef DUOLUX_LIB_BSDF_BSDF_TYPES_GLSL
+#define DUOLUX_LIB_BSDF_BSDF_TYPES_GLSL
+
+#include "shaders/lib/warp.glsl"
+#include "shaders/shared/material_layout.h"
+
+// What a path carries: radiance to the camera (it is traced from the camera), or importance to the emitters (it is
+// traced from an emitter). Both modes evaluate the same BSDF f(view, light). With shading normals the cosine of `wi`
+// differs: radiance mode has that to the shading normal, importance mode that to the geometric normal (Veach, "Robust
+// Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3).
+const uint kModeRadiance = 0u;
+const uint kModeImportance = 1u;
+
+// The parameters of all lobes (material_layout.h).
+struct Bsdf {
+    vec3 baseColor;
+    float metallic;
+    float roughness;
+};
+
+// The two unit normals of a surface, both on the side of `wo`. `wo` is above the geometric normal's horizon, but may be
+// below the shading normal's.
+struct BsdfFrame {
+    vec3 shading;
+    vec3 geometric;
+};
+
+// `wi` is on the other side than `wo` where a lobe transmits: dot(geometric, wi) < 0.
+struct BsdfSample {
+    vec3 wi;      // unit
+    float pdf;    // per steradian; kDeltaPdf: the direction is the only one; 0: nothing is scattered
+    vec3 weight;  // f |cos| / pdf
+};
+
+// Stands for the infinite density of a delta distribution. Every other strategy has no weight beside it.
+const float kDeltaPdf = 1e30;
+
+vec3 viewOf(vec3 wo, vec3 wi, uint mode) { return mode == kModeRadiance ? wo : wi; }
+vec3 lightOf(vec3 wo, vec3 wi, uint mode) { return mode == kModeRadiance ? wi : wo; }
+
+// The normal to which `wi` has its cosine.
+vec3 normalOfMode(BsdfFrame frame, uint mode) { return mode == kModeRadiance ? frame.shading : frame.geometric; }
+
+// The cosine that goes with f.
+float bsdfCosine(BsdfFrame frame, vec3 wi, uint mode) { return abs(dot(normalOfMode(frame, mode), wi)); }
+
+// Whether `wi` leaves the surface on the side of `wo`, and light arrives on the front of the shading normal.
+bool reflects(BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
+    return dot(frame.geometric, wi) > 0.0 && dot(frame.shading, lightOf(wo, wi, mode)) > 0.0;
+}
+
+#endif

@@ -1,0 +1,81 @@
+// Emitters as records, and what every kind of emitter in this folder returns. The kernel that includes this defines
+// fetchEmitterTexel.
+#ifndef DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
+#define DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
+
+#include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/surface.glsl"
+#include "shaders/shared/emitter_layout.h"
+
+uvec4 fetchEmitterTexel(uint index);
+
+struct Emitter {
+    vec3 v0;
+    vec3 v1;
+    vec3 v2;
+    uint flags;
+    float positionError;
+    uint triangle;        // as in DeviceEmitter
+    Light emission;
+    float density;
+};
+
+Emitter fetchEmitter(uint index) {
+    uint texel = index * kEmitterTexels;
+    uvec4 t0 = fetchEmitterTexel(texel);
+    uvec4 t1 = fetchEmitterTexel(texel + 1u);
+    uvec4 t2 = fetchEmitterTexel(texel + 2u);
+    uvec4 t3 = fetchEmitterTexel(texel + 3u);
+    uvec4 t4 = fetchEmitterTexel(texel + 4u);
+    return Emitter(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t0.w, uintBitsToFloat(t1.w),
+                   t2.w, Light(uintBitsToFloat(t3.xyz), uintBitsToFloat(t4.xyz)), uintBitsToFloat(t3.w));
+}
+
+// The entry of the alias table at an index.
+struct AliasEntry {
+    float threshold;
+    uint alias;
+};
+
+AliasEntry fetchAliasEntry(uint index) {
+    uvec4 t = fetchEmitterTexel(index * kEmitterTexels + 5u);
+    return AliasEntry(uintBitsToFloat(t.x), t.y);
+}
+
+// A point on an emitter.
+struct EmitterPoint {
+    vec3 position;
+    vec3 normal;          // unit, on the front side
+    float positionError;
+};
+
+// The direction in which a point of the scene receives light from an emitter.
+struct EmitterSample {
+    vec3 wi;          // unit, from the point to the emitter
+    float distance;   // to just in front of the emitter, or to the emitter itself if surfaces coincide with it
+    Light emission;   // radiance that leaves the emitter towards the point
+    float pdf;        // per steradian
+    uint emitter;     // index
+    uint coincident;  // the emitter's triangle in device memory if other surfaces coincide with it, else kNoTriangle
+};
+
+// A particle that leaves an emitter.
+struct EmittedRay {
+    SurfacePoint point;  // its normals are on the side on which the particle leaves
+    vec3 direction;      // unit
+    Light flux;          // W: emission divided by the density of the ray
+};
+
+// What the camera sees of a point on an emitter.
+struct EmitterSeen {
+    SurfacePoint point;  // its normals are on the side that faces the camera
+    Light intensity;     // emission divided by the density of the point, W sr^-1
+};
+
+// The radiance that an emitter sends to one side.
+Light emissionOn(Emitter emitter, bool front) {
+    bool emits = (emitter.flags & (front ? kEmitterFront : kEmitterBack)) != 0u;
+    return Light(emits ? emitter.emission.invisible : vec3(0.0), emits ? emitter.emission.visible : vec3(0.0));
+}
+
+#endif

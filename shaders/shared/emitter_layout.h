@@ -1,0 +1,38 @@
+// The record of an emitter, shared by C++ and GLSL. The emitting triangles of a scene come first, in the order of their
+// ranks (DevicePair::primitive), so that the rank of an emitting triangle is the index of its record.
+#ifndef DUOLUX_SHADERS_SHARED_EMITTER_LAYOUT_H
+#define DUOLUX_SHADERS_SHARED_EMITTER_LAYOUT_H
+
+#include "shaders/shared/types.h"
+
+DUOLUX_BEGIN
+
+DUOLUX_CONST uint kEmitterTexels = 6u;  // of 4 x uint32
+
+// DeviceEmitter.flags
+DUOLUX_CONST uint kEmitterFront = 1u;       // emits on the front side
+DUOLUX_CONST uint kEmitterBack = 2u;        // emits on the back side
+DUOLUX_CONST uint kEmitterCoincident = 4u;  // other surfaces coincide with the triangle, kSpecPlanes only
+
+#ifdef __cplusplus
+struct DeviceEmitter {
+    vec3 v0;  // corners
+    uint flags;
+    vec3 v1;
+    float positionError;  // bound on the rounding error of a point on the triangle, as for hits
+    vec3 v2;
+    uint triangle;   // index of the triangle in device memory, kSpecPlanes only
+    vec3 invisible;  // radiance
+    float density;   // with which next-event estimation samples a point of the emitter, m^-2
+    vec3 visible;
+    uint unused;
+    // Entry of the alias table (Walker 1974; Vose 1991).
+    float threshold;  // probability of keeping this entry
+    uint alias;       // the entry to use otherwise
+    uint padding[2];
+};
+static_assert(sizeof(DeviceEmitter) == kEmitterTexels * 16);
+#endif
+
+DUOLUX_END
+#endif

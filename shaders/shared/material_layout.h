@@ -1,0 +1,32 @@
+// The record of a material, shared by C++ and GLSL.
+#ifndef DUOLUX_SHADERS_SHARED_MATERIAL_LAYOUT_H
+#define DUOLUX_SHADERS_SHARED_MATERIAL_LAYOUT_H
+
+#include "shaders/shared/types.h"
+
+DUOLUX_BEGIN
+
+DUOLUX_CONST uint kMaterialTexels = 10u;  // of 4 x uint32
+
+DUOLUX_CONST uint kMaterialTwoSided = 1u;  // f_opaque acts on both sides
+
+// Specialisation constant: the sum of the lobes that the materials of a scene have.
+DUOLUX_CONST uint kSpecLobes = 21u;
+DUOLUX_CONST uint kLobeDiffuse = 1u;
+DUOLUX_CONST uint kLobeConductor = 2u;
+
+#ifdef __cplusplus
+struct DeviceMaterial {
+    vec3 baseColor;
+    uint flags;
+    float metallic;
+    float roughness;
+    float unused[2];
+    vec4 opaque[4];  // m00 m01 m10 m11 in xyz
+    vec4 transparent[4];
+};
+static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16 && offsetof(DeviceMaterial, opaque) == 32);
+#endif
+
+DUOLUX_END
+#endif

@@ -1,0 +1,112 @@
+// Emission by side, densities, and what each kind of emitter returns.
+#include "shaders/lib/emitter.glsl"
+
+uvec4 fetchEmitterTexel(uint index) { return uvec4(index); }
+uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
+uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
+uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }
+
+// 0.5 to 2, and of all magnitudes that densities have.
+float randomDensity() { return testIndex() % 2u == 0u ? randomFloat(0.5, 2.0) : randomScale(-60.0, 60.0); }
+
+// Veach 1997, eq. 9.8 with n_i = 1.
+TEST(BalanceHeuristicIsAPartitionOfUnity) {
+    float a = randomDensity();
+    float b = randomDensity();
+    EXPECT_NEAR(balanceHeuristic(a, b) + balanceHeuristic(b, a), 1.0, 1.2e-7);
+    EXPECT_NEAR(balanceHeuristic(a, b) * b, balanceHeuristic(b, a) * a, 4e-7 * max(a, b));
+}
+
+TEST_N(BalanceHeuristicAtItsLimits, 1) {
+    float infinity = uintBitsToFloat(0x7f800000u);
+    EXPECT_EQ(vec4(balanceHeuristic(1.0, 1.0), balanceHeuristic(3.0, 1.0), balanceHeuristic(1.0, 3.0),
+                   balanceHeuristic(7.0, 0.0)), vec4(0.5, 0.75, 0.25, 1.0));
+    // A strategy with zero density has no weight, even if both densities are zero.
+    EXPECT_EQ(vec3(balanceHeuristic(0.0, 2.0), balanceHeuristic(0.0, 0.0), balanceHeuristic(0.0, infinity)), vec3(0.0));
+    // A direction for which the other strategy has an infinite or very large density.
+    EXPECT_EQ(vec3(balanceHeuristic(1.0, infinity), balanceHeuristic(1e30, 1.0), balanceHeuristic(1e-30, 1e30)),
+              vec3(0.0, 1.0, 0.0));
+}
+
+// dA cos = d^2 dw: at twice the distance the density per steradian is four times as large; at an oblique angle it is
+// larger, on either side.
+TEST(DensityPerSteradianGoesBySquareOfDistanceAndCosine) {
+    float density = randomScale(-10.0, 10.0);
+    float squared = randomScale(-10.0, 10.0);
+    float cosine = randomFloat(0.01, 1.0);
+    float perSteradian = pdfAreaToSolidAngle(density, squared, cosine);
+    EXPECT_ULP(perSteradian * cosine / squared, density, 4.0);
+    EXPECT_EQ(pdfAreaToSolidAngle(density, squared, -cosine), perSteradian);
+    EXPECT_EQ(pdfAreaToSolidAngle(2.0 * density, 4.0 * squared, 0.5 * cosine), 16.0 * perSteradian);
+}
+
+TEST_N(DensityIsFiniteAlongTheEmitter, 1) {
+    EXPECT_EQ(pdfAreaToSolidAngle(1.0, 1.0, 0.0), pdfAreaToSolidAngle(1.0, 1.0, 1e-12));
+    EXPECT_ULP(pdfAreaToSolidAngle(1.0, 1.0, 0.0), 1e12, 1.0);
+    EXPECT_ULP(pdfAreaToSolidAngle(1.0, 1.0, 2e-12), 0.5e12, 1.0);
+}
+
+// For a single emitter of area A, every particle carries pi E A for each side.
+TEST(FluxOfOneEmitterIsItsPower) {
+    float area = randomScale(-20.0, 20.0);
+    EXPECT_ULP(emittedFlux(1.0 / area, 1.0), 3.14159265358979 * area, 8.0);
+    EXPECT_EQ(emittedFlux(1.0 / area, 2.0), 2.0 * emittedFlux(1.0 / area, 1.0));
+}
+
+Emitter triangleEmitter(uint flags) {
+    vec3 a = randomVec3(-1.0, 1.0);
+    vec3 b = randomVec3(-1.0, 1.0);
+    return Emitter(a, b, randomVec3(-1.0, 1.0), flags, 1e-6, 0u, Light(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 7.0);
+}
+
+// All four combinations of sides.
+TEST_N(EmissionIsThatOfTheSideWhoseFlagIsSet, 4) {
+    uint flags = testIndex();
+    Light toFront = emissionOn(triangleEmitter(flags), true);
+    Light toBack = emissionOn(triangleEmitter(flags), false);
+    EXPECT_EQ(toFront.invisible, (flags & kEmitterFront) != 0u ? vec3(1.0, 2.0, 3.0) : vec3(0.0));
+    EXPECT_EQ(toFront.visible, (flags & kEmitterFront) != 0u ? vec3(4.0, 5.0, 6.0) : vec3(0.0));
+    EXPECT_EQ(toBack.invisible, (flags & kEmitterBack) != 0u ? vec3(1.0, 2.0, 3.0) : vec3(0.0));
+    EXPECT_EQ(toBack.visible, (flags & kEmitterBack) != 0u ? vec3(4.0, 5.0, 6.0) : vec3(0.0));
+}
+
+// A direction, a distance, a side and a density that belong to one point of the emitter.
+TEST(SampleIsAPointOfTheEmitter) {
+    Emitter emitter = triangleEmitter(kEmitterFront);
+    vec3 receiver = randomVec3(-2.0, 2.0);
+    vec2 u = randomVec2();
+    EmitterSample s = sampleTriangleEmitter(emitter, 5u, receiver, u);
+    EmitterPoint on = pointOnTriangleEmitter(emitter, u);
+    bool front = dot(on.normal, receiver - on.position) > 0.0;
+    EXPECT_NEAR(receiver + s.wi * s.distance, on.position, 4e-6);
+    EXPECT_NEAR(length(s.wi), 1.0, 3e-7);
+    EXPECT_EQ(s.emission.invisible, emissionOn(emitter, front).invisible);
+    EXPECT_NEAR(s.pdf, emitterPdf(emitter, s.distance * s.distance, dot(on.normal, s.wi)), 1e-5 * s.pdf);
+    EXPECT_EQ(s.emitter, 5u);
+    EXPECT_EQ(s.coincident, kNoTriangle);
+}
+
+// The particle leaves on the side that `side` chooses; one side carries all flux, or each of two half of it.
+TEST(EmittedRayLeavesOnItsSide) {
+    bool both = (randomUint() & 1u) == 0u;
+    Emitter emitter = triangleEmitter(both ? kEmitterFront | kEmitterBack : kEmitterFront);
+    EmitterPoint on = pointOnTriangleEmitter(emitter, randomVec2());
+    float side = randomFloat(0.0, 1.0);
+    EmittedRay ray = emitFromTriangle(emitter, on, side, randomVec2());
+    bool front = !both || side < 0.5;
+    EXPECT_EQ(ray.point.geometricNormal, front ? on.normal : -on.normal);
+    EXPECT_EQ(ray.point.shadingNormal, ray.point.geometricNormal);
+    EXPECT_GT(dot(ray.direction, ray.point.geometricNormal), 0.0);
+    EXPECT_GT(dot(ray.point.position - on.position, ray.point.geometricNormal), 0.0);
+    EXPECT_NEAR(ray.flux.visible, vec3(4.0, 5.0, 6.0) * (3.14159265 * (both ? 2.0 : 1.0) / 7.0), 2e-6);
+}
+
+// The camera sees the side that faces it, whichever the particle leaves from.
+TEST(CameraSeesTheSideThatFacesIt) {
+    Emitter emitter = triangleEmitter(randomUint() & 3u);
+    EmitterPoint on = pointOnTriangleEmitter(emitter, randomVec2());
+    vec3 toCamera = randomDirection();
+    EmitterSeen seen = seeTriangleEmitter(emitter, on, toCamera);
+    EXPECT_GT(dot(seen.point.geometricNormal, toCamera), 0.0);
+    EXPECT_NEAR(seen.intensity.invisible, emissionOn(emitter, dot(on.normal, toCamera) > 0.0).invisible / 7.0, 1e-6);
+}
