@@ -183,7 +183,7 @@ void SceneSuite::State::addFilms() {
             std::make_shared<PathKernel>(device, deviceScene, scene, *pixels, count, false);
         gathering->submit(0, {0, count, 0, 1}, film->quantum());
         gathering->wait(0);
-        addFilm("path", count, sizeof(shared::SlotResult),
+        addFilm("path", count, sizeof(shared::PixelResult),
                 [pixels, gathering, film] { gathering->addTo(*film, 0); });
     }
     if (wanted("film/light")) {

@@ -64,7 +64,7 @@ PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, con
       params_(uploadParams(device, deviceScene, scene)),
       pixelOrder_(uploadPixels(device, pixels, gridPixels(scene.render.width, scene.render.height))),
       results_(
-          Buffer::readback(device, 2 * sizeof(shared::SlotResult) * std::uint64_t{maxPixels}, "results")),
+          Buffer::readback(device, 2 * sizeof(shared::PixelResult) * std::uint64_t{maxPixels}, "results")),
       // Without layers, a few bytes that are bound but not used.
       layerResults_(Buffer::readback(
           device, std::max(2 * sizeof(std::int64_t) * maxPixels * layerChannels_, sizeof(std::int64_t)),
@@ -103,11 +103,11 @@ PathKernel::Totals PathKernel::read(unsigned place) {
     results_.invalidate();
     const WorkRange& range = submitted_[place].range;
     const auto* results =
-        reinterpret_cast<const shared::SlotResult*>(results_.mapped()) + std::size_t{place} * maxPixels_;
+        reinterpret_cast<const shared::PixelResult*>(results_.mapped()) + std::size_t{place} * maxPixels_;
     Totals totals;
     sums_.resize(range.pixels);
     for (std::size_t i = 0; i < range.pixels; ++i) {
-        const shared::SlotResult& r = results[i];
+        const shared::PixelResult& r = results[i];
         for (std::size_t c = 0; c < 3; ++c) {
             sums_[i].invisible[c] = signed64(r.invisible[2 * c], r.invisible[2 * c + 1]);
             sums_[i].visible[c] = signed64(r.visible[2 * c], r.visible[2 * c + 1]);

@@ -60,7 +60,7 @@ class PathKernel {
     /// Waits for the dispatch in a place.
     Results wait(unsigned place);
 
-    /// The statistics of a dispatch: sums over its samples. See shared::SlotResult.
+    /// The statistics of a dispatch: sums over its samples. See shared::PixelResult.
     struct Totals {
         std::uint64_t nonFinite = 0, cameraRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
         double lastBounce = 0.0, previousBounce = 0.0;

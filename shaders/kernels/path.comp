@@ -11,13 +11,13 @@
 
 #include "shaders/kernels/film_layers.glsl"
 #include "shaders/kernels/scene.glsl"
-#include "shaders/lib/slot_sums.glsl"
+#include "shaders/lib/pixel_sums.glsl"
 
 layout(constant_id = kSpecDirectLight) const uint kDirectLight = kDirectLightSampled;
 layout(constant_id = kSpecHasEmitters) const bool kHasEmitters = true;
 
 layout(binding = kBindingPixels, rgba32ui) uniform readonly uimageBuffer pixelTexels;
-layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { SlotResult results[]; };
+layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { PixelResult results[]; };
 layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
 
 #include "shaders/kernels/segment.glsl"
@@ -134,13 +134,13 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     if (!passes) endSegment(path, vertex);
 }
 
-uint pixelOfSlot(uint slot) {
-    uint imageSlot = dispatch.firstSlot + slot;
-    return imageLoad(pixelTexels, int(imageSlot >> 2u))[imageSlot & 3u];
+uint pixelInOrder(uint place) {
+    uint index = dispatch.firstPixel + place;
+    return imageLoad(pixelTexels, int(index >> 2u))[index & 3u];
 }
 
 // The next ray: the shadow ray first, then the path's. `inEmitterTree`: the path looks only for emitters.
-Traversal nextRay(Path path, Shadow shadow, bool inEmitterTree, inout SlotSums sums) {
+Traversal nextRay(Path path, Shadow shadow, bool inEmitterTree, inout PixelSums sums) {
     bool onPath = !shadow.pending;
     bool fromCamera = onCameraSegment(path);
     sums.shadowRays += shadow.pending ? 1u : 0u;
@@ -161,18 +161,18 @@ Traversal cameraRayOf(Path path) {
 }
 
 void main() {
-    Team team = teamOfLane(dispatch.teamSlots, dispatch.slotCount, dispatch.firstTeam);
+    Team team = teamOfLane(dispatch.teamPixels, dispatch.pixelCount, dispatch.firstTeam);
     if (team.items == 0u) return;
     uint taken = takeItem(team);
     uint endSample = dispatch.firstSample + dispatch.sampleCount;
-    SlotSums sums = emptySums();
+    PixelSums sums = emptySums();
     emptyLayers();
     Gathered gathered = nothingGathered();
     Vertex vertex;
     vertex.weightSum = 0.0;
     Shadow shadow;
     shadow.pending = false;
-    Path path = cameraPath(uvec2(pixelOfSlot(itemOf(team, taken)), dispatch.firstSample));
+    Path path = cameraPath(uvec2(pixelInOrder(itemOf(team, taken)), dispatch.firstSample));
     Traversal ray = cameraRayOf(path);
 
     while (taken < team.items) {
@@ -218,13 +218,13 @@ void main() {
         } while (subgroupBallot(path.stream.y == endSample) == uvec4(0u));
 
         if (path.stream.y == endSample) {
-            results[dispatch.firstResult + team.begin + taken] = slotResult(sums);
+            results[dispatch.firstResult + team.begin + taken] = pixelResult(sums);
             storeLayers(dispatch.firstResult + team.begin + taken);
             finishItem(team);
             taken = takeItem(team);
             sums = emptySums();
             emptyLayers();
-            path = cameraPath(uvec2(pixelOfSlot(itemOf(team, taken)), dispatch.firstSample));
+            path = cameraPath(uvec2(pixelInOrder(itemOf(team, taken)), dispatch.firstSample));
             ray = cameraRayOf(path);
             ray.nodesLeft = taken < team.items;
         }

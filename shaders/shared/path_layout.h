@@ -20,8 +20,8 @@ DUOLUX_CONST uint kBindingNormals = 2u;    // texels: DeviceNormals
 DUOLUX_CONST uint kBindingMaterials = 3u;  // texels: DeviceMaterial
 DUOLUX_CONST uint kBindingEmitters = 4u;   // texels: DeviceEmitter
 DUOLUX_CONST uint kBindingParams = 5u;     // uniform: PathParams
-DUOLUX_CONST uint kBindingPixels = 6u;     // texels: the pixel indices of four slots each
-DUOLUX_CONST uint kBindingResults = 7u;    // storage: SlotResult
+DUOLUX_CONST uint kBindingPixels = 6u;     // texels: the indices of four pixels each, in the order of tracing
+DUOLUX_CONST uint kBindingResults = 7u;    // storage: PixelResult
 DUOLUX_CONST uint kBindingTeams = 8u;      // storage: TeamProgress, all zero before a dispatch
 
 // Specialisation constants.
@@ -41,7 +41,7 @@ DUOLUX_CONST uint kSpecSmoothNormals = 10u;
 DUOLUX_CONST uint kSpecSampler = 11u;      // one of the kSampler... below
 DUOLUX_CONST uint kSpecDirectLight = 12u;  // one of the kDirectLight... below
 DUOLUX_CONST uint kSpecHasEmitters = 13u;  // something emits
-DUOLUX_CONST uint kSpecTeamSize = 14u;     // lanes that share a range of slots; divides the workgroup's size
+DUOLUX_CONST uint kSpecTeamSize = 14u;     // lanes that share a range of pixels; divides the workgroup's size
 
 DUOLUX_CONST uint kSamplerSobol = 0u;  // Owen-scrambled Sobol points
 DUOLUX_CONST uint kSamplerIndependent = 1u;
@@ -72,10 +72,10 @@ struct PathParams {
     uint bounces;  // largest number of scattering events on a path
     DeviceLightMatrix opaque;
     DeviceLightMatrix transparent;
-    vec2 rowWeight;  // weights of the components (invisible, visible) of a pixel in the distribution of
-                     // work; their sum is 1
-    vec2 display;    // the row d of eq. 8
-    uint emitterCount;      // emitters that next-event estimation and shooting choose from
+    vec2 rowWeight;     // weights of the components (invisible, visible) of a pixel in the distribution of
+                        // work; their sum is 1
+    vec2 display;       // the row d of eq. 8
+    uint emitterCount;  // emitters that next-event estimation and shooting choose from
     uint emittingTriangles;  // triangles with a rank below this emit
     uint emitterRoot;   // index of the root node of the tree over emitters or, with the driver's tree, of the
                         // first emitting triangle; 0: there is none
@@ -84,25 +84,25 @@ struct PathParams {
 };
 
 struct DispatchParams {
-    uint firstSlot;
-    uint slotCount;
+    uint firstPixel;
+    uint pixelCount;
     uint firstSample;
     uint sampleCount;
-    uint teamSlots;    // slots that each team of lanes processes, one after the other
-    uint firstResult;  // index of the first slot's result
+    uint teamPixels;   // pixels that each team of lanes processes, one after the other
+    uint firstResult;  // index of the first pixel's result
     uint firstTeam;    // index of the first team's progress
     float inverseQuantum;
 };
 
-// Slots that the lanes of a team have started and finished. If the driver has ended the kernel's loops early,
-// fewer slots are finished than requested.
+// Pixels or light paths that the lanes of a team have started and finished. If the driver has ended the
+// kernel's loops early, fewer are finished than requested.
 struct TeamProgress {
     uint taken;
     uint finished;
 };
 
-// Sums over the samples of one slot (pixel) in one dispatch. 64-bit two's complement numbers as (low, high).
-struct SlotResult {
+// Sums over the samples of one pixel in one dispatch. 64-bit two's complement numbers as (low, high).
+struct PixelResult {
     uint invisible[6];
     uint visible[6];
     uint nonFinite;  // samples dropped because they were not finite
@@ -119,7 +119,7 @@ struct SlotResult {
 DUOLUX_CONST uint kNormalTexels = 1u;  // three octahedral 2 x snorm16 unit vectors, one per vertex
 
 #ifdef __cplusplus
-static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(SlotResult) == 80);
+static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(PixelResult) == 80);
 static_assert(offsetof(PathParams, opaque) == 84 && offsetof(PathParams, rowWeight) == 180);
 static_assert(offsetof(PathParams, emitterRoot) == 204 && sizeof(PathParams) == 232);
 

@@ -163,8 +163,8 @@ TEST(BlockLayout, ResultsReturnFieldByField) {
     expectReturnsByStorage<shared::TraceHit>("TraceHit");
     expectComplete<shared::TraceCounts>();
     expectReturnsByStorage<shared::TraceCounts>("TraceCounts");
-    expectComplete<shared::SlotResult>();
-    expectReturnsByStorage<shared::SlotResult>("SlotResult");
+    expectComplete<shared::PixelResult>();
+    expectReturnsByStorage<shared::PixelResult>("PixelResult");
     expectComplete<shared::LaneResult>();
     expectReturnsByStorage<shared::LaneResult>("LaneResult");
 }

@@ -92,11 +92,11 @@ inline void listFields(const shared::DeviceLightMatrix& s, WordList& list) {
     DUOLUX_FIELD(m11);
 }
 inline void listFields(const shared::DispatchParams& s, WordList& list) {
-    DUOLUX_FIELD(firstSlot);
-    DUOLUX_FIELD(slotCount);
+    DUOLUX_FIELD(firstPixel);
+    DUOLUX_FIELD(pixelCount);
     DUOLUX_FIELD(firstSample);
     DUOLUX_FIELD(sampleCount);
-    DUOLUX_FIELD(teamSlots);
+    DUOLUX_FIELD(teamPixels);
     DUOLUX_FIELD(firstResult);
     DUOLUX_FIELD(firstTeam);
     DUOLUX_FIELD(inverseQuantum);
@@ -114,7 +114,7 @@ inline void listFields(const shared::TeamProgress& s, WordList& list) {
     DUOLUX_FIELD(taken);
     DUOLUX_FIELD(finished);
 }
-inline void listFields(const shared::SlotResult& s, WordList& list) {
+inline void listFields(const shared::PixelResult& s, WordList& list) {
     DUOLUX_FIELD(invisible);
     DUOLUX_FIELD(visible);
     DUOLUX_FIELD(nonFinite);

@@ -62,9 +62,9 @@ DUOLUX_MIRROR_TYPE(EmitterSample, s.wi, s.distance, s.emission, s.pdf, s.emitter
 DUOLUX_MIRROR_TYPE(EmittedRay, s.point, s.direction, s.flux);
 DUOLUX_MIRROR_TYPE(EmitterSeen, s.point, s.intensity);
 DUOLUX_MIRROR_TYPE(Gathered, s.light, s.lastBounce, s.previousBounce);
-DUOLUX_MIRROR_TYPE(SlotSums, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
+DUOLUX_MIRROR_TYPE(PixelSums, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
                    s.shadowRays, s.emitterRays, s.lastBounce, s.previousBounce);
-DUOLUX_MIRROR_TYPE(SlotResult, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
+DUOLUX_MIRROR_TYPE(PixelResult, s.invisible, s.visible, s.nonFinite, s.clamped, s.cameraRays, s.bounceRays,
                    s.shadowRays, s.emitterRays, s.lastBounce, s.previousBounce);
 DUOLUX_MIRROR_TYPE(LaneResult, s.nonFinite, s.clamped, s.lightRays, s.bounceRays, s.shadowRays, s.lastBounce,
                    s.previousBounce, s.invisible, s.visible);
@@ -82,7 +82,7 @@ inline twice::Triangle widen(const Triangle& t) {
 }
 inline twice::SurfacePoint widen(const SurfacePoint& p) {
     return {test::widen(p.position), test::widen(p.geometricNormal), test::widen(p.shadingNormal), p.triangle,
-            p.behindOthers, test::widen(p.offset)};
+            p.behindOthers,          test::widen(p.offset)};
 }
 inline twice::LightMatrix widen(const LightMatrix& m) {
     return {test::widen(m.m00), test::widen(m.m01), test::widen(m.m10), test::widen(m.m11)};
@@ -99,7 +99,7 @@ inline twice::FilmSum widen(const FilmSum& s) {
 inline twice::Gathered widen(const Gathered& g) {
     return {widen(g.light), test::widen(g.lastBounce), test::widen(g.previousBounce)};
 }
-inline twice::SlotSums widen(const SlotSums& s) {
+inline twice::PixelSums widen(const PixelSums& s) {
     return {widen(s.invisible),
             widen(s.visible),
             s.nonFinite,

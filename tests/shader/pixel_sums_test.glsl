@@ -1,5 +1,5 @@
 // The radiance that a sample gathers, and the sums of a lane over samples.
-#include "shaders/lib/slot_sums.glsl"
+#include "shaders/lib/pixel_sums.glsl"
 
 vec3 randomIntegers() { return floor(randomVec3(0.0, 16.0)); }
 
@@ -29,18 +29,18 @@ TEST_N(NothingIsGatheredAtFirst, 1) {
 // Sums that hold something in every field, of which a sample may change only its own.
 FilmRounding someRounding() { return FilmRounding(randomVec3(0.0, 1.0), randomVec3(0.0, 1.0)); }
 
-SlotSums someSums() {
-    return SlotSums(FilmSum(uvec2(1u, 0u), uvec2(2u, 0u), uvec2(3u, 0u)), FilmSum(uvec2(4u, 0u), uvec2(5u, 0u),
+PixelSums someSums() {
+    return PixelSums(FilmSum(uvec2(1u, 0u), uvec2(2u, 0u), uvec2(3u, 0u)), FilmSum(uvec2(4u, 0u), uvec2(5u, 0u),
                     uvec2(6u, 0u)), 7u, 8u, 9u, 10u, 11u, 12u, 13.0, 14.0);
 }
 
-void expectRays(SlotSums sums) {
+void expectRays(PixelSums sums) {
     EXPECT_EQ(uvec4(sums.cameraRays, sums.bounceRays, sums.shadowRays, sums.emitterRays), uvec4(9u, 10u, 11u, 12u));
 }
 
 TEST(SampleIsAddedToItsSums) {
     Light light = Light(randomIntegers(), randomIntegers());
-    SlotSums sums = someSums();
+    PixelSums sums = someSums();
     addSample(sums, Gathered(light, 0.5, 0.25), 4.0, someRounding());
     uvec3 invisible = uvec3(1u, 2u, 3u) + 4u * uvec3(light.invisible);
     uvec3 visible = uvec3(4u, 5u, 6u) + 4u * uvec3(light.visible);
@@ -58,7 +58,7 @@ TEST_N(SampleThatIsNotANumberIsDropped, 24) {
     Light light = Light(vec3(1.0), vec3(1.0));
     if (testIndex() / 3u % 2u == 0u) light.invisible[channel] = wrong[testIndex() / 6u];
     else light.visible[channel] = wrong[testIndex() / 6u];
-    SlotSums sums = someSums();
+    PixelSums sums = someSums();
     addSample(sums, Gathered(light, 0.5, 0.25), 4.0, someRounding());
     EXPECT_EQ(uvec3(sums.invisible.r.x, sums.invisible.g.x, sums.invisible.b.x), uvec3(1u, 2u, 3u));
     EXPECT_EQ(uvec3(sums.visible.r.x, sums.visible.g.x, sums.visible.b.x), uvec3(4u, 5u, 6u));
@@ -69,7 +69,7 @@ TEST_N(SampleThatIsNotANumberIsDropped, 24) {
 
 // Just below what is an error: kept. Six channels at 2^58 quanta or beyond all together are clamped and counted.
 TEST_N(BrightSamplesAreClampedAndCounted, 1) {
-    SlotSums sums = someSums();
+    PixelSums sums = someSums();
     addSample(sums, Gathered(Light(vec3(0.9e30, 0.0, 1.0), vec3(1.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(uvec2(sums.nonFinite, sums.clamped), uvec2(7u, 9u));
     EXPECT_EQ(uvec4(sums.invisible.r, sums.invisible.b), uvec4(1u, 1u << 26u, 4u, 0u));
@@ -82,7 +82,7 @@ TEST_N(BrightSamplesAreClampedAndCounted, 1) {
 }
 
 TEST_N(SumsAreEmptyAtFirst, 1) {
-    SlotResult result = slotResult(emptySums());
+    PixelResult result = pixelResult(emptySums());
     uint all = 0u;
     for (int i = 0; i < 6; i++) all |= result.invisible[i] | result.visible[i];
     all |= result.nonFinite | result.clamped | result.cameraRays | result.bounceRays | result.shadowRays;
@@ -92,9 +92,9 @@ TEST_N(SumsAreEmptyAtFirst, 1) {
 
 // Every field holds a number of its own.
 TEST_N(ResultHasEveryField, 1) {
-    SlotSums sums = SlotSums(FilmSum(uvec2(1u, 2u), uvec2(3u, 4u), uvec2(5u, 6u)), FilmSum(uvec2(7u, 8u),
+    PixelSums sums = PixelSums(FilmSum(uvec2(1u, 2u), uvec2(3u, 4u), uvec2(5u, 6u)), FilmSum(uvec2(7u, 8u),
                              uvec2(9u, 10u), uvec2(11u, 12u)), 13u, 14u, 15u, 16u, 17u, 18u, 19.0, 20.0);
-    SlotResult result = slotResult(sums);
+    PixelResult result = pixelResult(sums);
     uint wrong = 0u;
     for (uint i = 0u; i < 6u; i++) {
         wrong |= result.invisible[i] ^ (i + 1u);

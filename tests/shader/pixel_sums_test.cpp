@@ -5,7 +5,7 @@
 
 #include "tests/shader/mirror_types.h"
 
-// The sums of lanes against both oracles. slot_sums_test.glsl and light_path_test.glsl test the expected
+// The sums of lanes against both oracles. pixel_sums_test.glsl and light_path_test.glsl test the expected
 // values.
 
 DUOLUX_GLSL_TYPE(duolux::mirror::single::Array<6>, "uint[6]", "");
@@ -17,21 +17,21 @@ namespace {
 using mirror::single::FilmSum;
 using mirror::single::Gathered;
 using mirror::single::Light;
-using mirror::single::SlotSums;
+using mirror::single::PixelSums;
 
-const ShaderLibrary& slotSums() {
-    static const ShaderLibrary library("shaders/lib/slot_sums.glsl");
+const ShaderLibrary& pixelSums() {
+    static const ShaderLibrary library("shaders/lib/pixel_sums.glsl");
     return library;
 }
 
-class SlotSumsOracles : public testing::Test {
+class PixelSumsOracles : public testing::Test {
   protected:
     std::uint32_t word() { return static_cast<std::uint32_t>(engine_()); }
     float number() { return uniform_(engine_); }
     glm::vec3 vector() { return {number(), number(), number()}; }
     FilmSum filmSum() { return {{word(), word()}, {word(), word()}, {word(), word()}}; }
     Gathered gathered(float bright) { return {{bright * vector(), bright * vector()}, number(), number()}; }
-    SlotSums sums() {
+    PixelSums sums() {
         return {filmSum(), filmSum(), word(), word(), word(), word(), word(), word(), number(), number()};
     }
 
@@ -41,7 +41,7 @@ class SlotSumsOracles : public testing::Test {
 
 constexpr Budget kExact{0, 0};
 
-TEST_F(SlotSumsOracles, Gather) {
+TEST_F(PixelSumsOracles, Gather) {
     std::vector<Gathered> before;
     std::vector<Light> lights;
     std::vector<glm::uvec2> scatterings;  // of the path, and allowed
@@ -52,7 +52,7 @@ TEST_F(SlotSumsOracles, Gather) {
         scatterings.emplace_back(word() % 4, word() % 4);
         display.emplace_back(number(), number());
     }
-    const auto after = slotSums().evaluate<Gathered>(
+    const auto after = pixelSums().evaluate<Gathered>(
         "Gathered g = x0; gather(g, x1, x2.x, x2.y, x3); result = g;", before, lights, scatterings, display);
     // A sum of seven terms of about 1.
     EXPECT_WITHIN_ORACLES(
@@ -66,47 +66,47 @@ TEST_F(SlotSumsOracles, Gather) {
             return g;
         },
         before, lights, scatterings, display);
-    EXPECT_EQ(numbers(slotSums().call<Gathered>("nothingGathered")[0]),
+    EXPECT_EQ(numbers(pixelSums().call<Gathered>("nothingGathered")[0]),
               numbers(mirror::single::nothingGathered()));
 }
 
 // Numbers of all sizes; where a sum of six is beside 2^58 quanta or 1e30, precision decides, so that there is
 // none.
-TEST_F(SlotSumsOracles, Samples) {
-    std::vector<SlotSums> before;
+TEST_F(PixelSumsOracles, Samples) {
+    std::vector<PixelSums> before;
     std::vector<Gathered> samples;
     for (int i = 0; i < 4096; ++i) {
         before.push_back(sums());
         const float bright = std::exp2(static_cast<float>(i % 110));
         samples.push_back(i % 16 == 15 ? gathered(i % 32 == 31 ? NAN : INFINITY) : gathered(bright));
     }
-    const auto after = slotSums().evaluate<SlotSums>(
-        "SlotSums s = x0; addSample(s, x1, 1024.0, FilmRounding(vec3(0.25), vec3(0.75))); result = s;",
+    const auto after = pixelSums().evaluate<PixelSums>(
+        "PixelSums s = x0; addSample(s, x1, 1024.0, FilmRounding(vec3(0.25), vec3(0.75))); result = s;",
         before, samples);
     // Words are exact; the statistics' floats are sums of two numbers of about 1.
     EXPECT_WITHIN_ORACLES(
         "addSample", after, Budget{1, 0},
-        [](SlotSums s, const auto& g) {
+        [](PixelSums s, const auto& g) {
             mirror::single::addSample(s, g, 1024.0f, {glm::vec3(0.25f), glm::vec3(0.75f)});
             return s;
         },
-        [](mirror::twice::SlotSums s, const auto& g) {
+        [](mirror::twice::PixelSums s, const auto& g) {
             mirror::twice::addSample(s, g, 1024.0, {glm::dvec3(0.25), glm::dvec3(0.75)});
             return s;
         },
         before, samples);
 }
 
-TEST_F(SlotSumsOracles, Results) {
+TEST_F(PixelSumsOracles, Results) {
     std::vector<FilmSum> filmSums;
-    std::vector<SlotSums> all;
+    std::vector<PixelSums> all;
     for (int i = 0; i < 1024; ++i) {
         filmSums.push_back(filmSum());
         all.push_back(sums());
     }
-    EXPECT_ORACLES(slotSums(), words, kExact, filmSums);
-    EXPECT_ORACLES(slotSums(), slotResult, kExact, all);
-    EXPECT_EQ(numbers(slotSums().call<SlotSums>("emptySums")[0]), numbers(mirror::single::emptySums()));
+    EXPECT_ORACLES(pixelSums(), words, kExact, filmSums);
+    EXPECT_ORACLES(pixelSums(), pixelResult, kExact, all);
+    EXPECT_EQ(numbers(pixelSums().call<PixelSums>("emptySums")[0]), numbers(mirror::single::emptySums()));
 }
 
 TEST(LightPathOracles, LaneResult) {

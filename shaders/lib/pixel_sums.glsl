@@ -1,6 +1,6 @@
-// The radiance that a sample gathers, and the sums over the samples of a slot (a pixel).
-#ifndef DUOLUX_LIB_SLOT_SUMS_GLSL
-#define DUOLUX_LIB_SLOT_SUMS_GLSL
+// The radiance that a sample gathers, and the sums over the samples of a pixel.
+#ifndef DUOLUX_LIB_PIXEL_SUMS_GLSL
+#define DUOLUX_LIB_PIXEL_SUMS_GLSL
 
 #include "shaders/lib/film.glsl"
 #include "shaders/lib/light_matrix.glsl"
@@ -25,8 +25,8 @@ void gather(inout Gathered g, Light light, uint scatterings, uint bounces, vec2 
 
 Gathered nothingGathered() { return Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0); }
 
-// The sums of a lane over the samples of a slot.
-struct SlotSums {
+// The sums of a lane over the samples of a pixel.
+struct PixelSums {
     FilmSum invisible;
     FilmSum visible;
     uint nonFinite;
@@ -39,9 +39,9 @@ struct SlotSums {
     float previousBounce;
 };
 
-SlotSums emptySums() { return SlotSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
+PixelSums emptySums() { return PixelSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
 
-void addSample(inout SlotSums sums, Gathered gathered, float inverseQuantum, FilmRounding u) {
+void addSample(inout PixelSums sums, Gathered gathered, float inverseQuantum, FilmRounding u) {
     vec3 total = gathered.light.invisible + gathered.light.visible;
     float sum = total.x + total.y + total.z;
     if (sum < kLargestRadiance) {
@@ -57,8 +57,8 @@ void addSample(inout SlotSums sums, Gathered gathered, float inverseQuantum, Fil
 
 uint[6] words(FilmSum sum) { return uint[6](sum.r.x, sum.r.y, sum.g.x, sum.g.y, sum.b.x, sum.b.y); }
 
-SlotResult slotResult(SlotSums sums) {
-    SlotResult result;
+PixelResult pixelResult(PixelSums sums) {
+    PixelResult result;
     result.invisible = words(sums.invisible);
     result.visible = words(sums.visible);
     result.nonFinite = sums.nonFinite;
