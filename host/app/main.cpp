@@ -14,6 +14,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/console.h"
+#include "host/app/exit_status.h"
 #include "host/app/options.h"
 #include "host/app/signals.h"
 #include "host/base/error.h"
@@ -97,7 +98,7 @@ int main(int argc, char** argv) {
         duolux::printResult();
         return status;
     } catch (const duolux::Error& e) {
-        return report(e.what(), e.status());
+        return report(e.what(), statusOf(e));
     } catch (const std::bad_alloc&) {
         return report("out of memory" + duolux::addressSpaceHint(), duolux::ExitStatus::kMachineFailed);
     } catch (const std::system_error& e) {

@@ -17,12 +17,12 @@
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
 #include "host/app/outputs.h"
+#include "host/app/progress.h"
 #include "host/app/render_options.h"
 #include "host/app/report.h"
 #include "host/app/signals.h"
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/progress.h"
 #include "host/loaders/scene_file.h"
 #include "host/view/load.h"
 
@@ -341,9 +341,9 @@ void runRender(const RenderOptions& options) {
     }
     if (const auto status = stopStatus(); status && (output.statistics.stopped || write.failed())) {
         write.sayFailures();
-        throw Error(*status,
-                    fmt::format("{}: wrote the result so far, {}",
-                                *status == ExitStatus::kTerminated ? "terminated" : "interrupted", there));
+        throw Stopped(*status,
+                      fmt::format("{}: wrote the result so far, {}",
+                                  *status == ExitStatus::kTerminated ? "terminated" : "interrupted", there));
     }
     write.finish();
 }

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "host/base/error.h"
+#include "host/app/exit_status.h"
 
 namespace duolux {
 

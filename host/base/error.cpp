@@ -25,6 +25,6 @@ std::string inputErrorLine(std::string_view file, std::string_view place, std::s
 
 InputError::InputError(std::string_view file, std::string_view place, std::string_view problem,
                        std::string_view remedy)
-    : Error(ExitStatus::kBadInput, inputErrorLine(file, place, problem, remedy)) {}
+    : Error(inputErrorLine(file, place, problem, remedy)) {}
 
 }  // namespace duolux

@@ -6,25 +6,11 @@
 
 namespace duolux {
 
-/// Exit statuses of the program (a contract with scripts).
-enum class ExitStatus : int {
-    kDone = 0,
-    kMachineFailed = 1,
-    kUsage = 2,
-    kBadInput = 3,
-    kInterrupted = 130,
-    kTerminated = 143
-};
-
-/// Base of all errors that are reported to the user as one line. what() is that line, without a trailing
-/// newline.
+/// Base of all errors, each of a kind below, that are reported to the user as one line. what() is that line,
+/// without a trailing newline.
 class Error : public std::runtime_error {
   public:
-    Error(ExitStatus status, const std::string& line) : std::runtime_error(line), status_(status) {}
-    ExitStatus status() const { return status_; }
-
-  private:
-    ExitStatus status_;
+    using std::runtime_error::runtime_error;
 };
 
 /// A scene, image or checkpoint that cannot be used: "FILE: PLACE: PROBLEM; REMEDY".
@@ -36,16 +22,16 @@ class InputError : public Error {
                std::string_view remedy);
 };
 
-/// Incorrect use of the command line (exit status 2).
+/// Something is asked for that cannot be, or is not understood.
 class UsageError : public Error {
   public:
-    explicit UsageError(const std::string& line) : Error(ExitStatus::kUsage, line) {}
+    using Error::Error;
 };
 
-/// The device or the machine failed: a Vulkan call, a full disk (exit status 1).
+/// The device or the machine failed: a Vulkan call, memory, a full disk.
 class MachineError : public Error {
   public:
-    explicit MachineError(const std::string& line) : Error(ExitStatus::kMachineFailed, line) {}
+    using Error::Error;
 };
 
 }  // namespace duolux

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/app/console.h"
+#include "host/app/exit_status.h"
 #include "host/app/options.h"
 #include "host/app/outputs.h"
 #include "host/base/error.h"
@@ -212,7 +213,7 @@ int main(int argc, char** argv) {
     try {
         return duolux::parseAndRun(argc, argv);
     } catch (const duolux::Error& e) {
-        return duolux::fail(e.what(), e.status());
+        return duolux::fail(e.what(), statusOf(e));
     } catch (const std::exception& e) {
         return duolux::fail(e.what(), ExitStatus::kMachineFailed);
     }

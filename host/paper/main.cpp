@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/app/console.h"
+#include "host/app/exit_status.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
     try {
         return duolux::parseAndRun(argc, argv);
     } catch (const duolux::Error& e) {
-        return duolux::fail(e.what(), e.status());
+        return duolux::fail(e.what(), statusOf(e));
     } catch (const std::exception& e) {
         return duolux::fail(e.what(), duolux::ExitStatus::kMachineFailed);
     }

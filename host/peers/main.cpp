@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/app/console.h"
+#include "host/app/exit_status.h"
 #include "host/app/options.h"
 #include "host/app/outputs.h"
 #include "host/base/error.h"
@@ -218,7 +219,7 @@ int main(int argc, char** argv) {
         return static_cast<int>(ExitStatus::kUsage);
     } catch (const Error& e) {
         say(fmt::format("duolux-peers: {}", e.what()));
-        return static_cast<int>(e.status());
+        return static_cast<int>(statusOf(e));
     } catch (const std::exception& e) {
         say(fmt::format("duolux-peers: {}", e.what()));
         return static_cast<int>(ExitStatus::kMachineFailed);

@@ -40,9 +40,6 @@ int main(int argc, char** argv) {
             good = test::printScore(program, goal) && good;
         }
         return good ? 0 : 1;
-    } catch (const Error& e) {
-        fmt::print(stderr, "mutation_score: {}\n", e.what());
-        return static_cast<int>(e.status());
     } catch (const std::exception& e) {
         fmt::print(stderr, "mutation_score: {}\n", e.what());
         return 1;

@@ -12,11 +12,5 @@ TEST(InputError, SaysFilePlaceProblemAndRemedyInOneLine) {
     EXPECT_STREQ(InputError("a\nb", "", "x\r\ny", "").what(), "a\\x0ab: x\\x0d\\x0ay");
 }
 
-TEST(Errors, CarryTheirExitStatus) {
-    EXPECT_EQ(InputError("f", "", "p", "").status(), ExitStatus::kBadInput);
-    EXPECT_EQ(UsageError("u").status(), ExitStatus::kUsage);
-    EXPECT_EQ(MachineError("m").status(), ExitStatus::kMachineFailed);
-}
-
 }  // namespace
 }  // namespace duolux

@@ -1,4 +1,4 @@
-#include "host/base/progress.h"
+#include "host/app/progress.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

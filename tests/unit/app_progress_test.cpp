@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "host/base/progress.h"
+#include "host/app/progress.h"
 
 namespace duolux {
 namespace {
