@@ -123,8 +123,11 @@ void printView(const Scene& scene) {
 
 void printLights(const Scene& scene, const nlohmann::ordered_json& lamp) {
     const EmitterSummary lights = summariseEmitters(scene);
-    printField("lights", fmt::format("{} emitting triangle{}, area {:.6g}", withSeparators(lights.triangles),
-                                     lights.triangles == 1 ? "" : "s", lights.area));
+    const std::string points =
+        lights.points > 0 ? fmt::format("; {} point{}", lights.points, lights.points == 1 ? "" : "s") : "";
+    printField("lights",
+               fmt::format("{} emitting triangle{}, area {:.6g}{}", withSeparators(lights.triangles),
+                           lights.triangles == 1 ? "" : "s", lights.area, points));
     printField("power", fmt::format("invisible {}; visible {} (W in scene units)",
                                     colour(lights.invisiblePower, 6), colour(lights.visiblePower, 6)));
     if (!lamp.is_null()) printField("added lamp", onOneLine(lamp));

@@ -180,6 +180,7 @@ Json infoJson(const Scene& scene, const Json& lamp) {
     info["lights"] = {
         {"triangles", lights.triangles},
         {"area", lights.area},
+        {"points", lights.points},
         {"power", {{"invisible", toJson(lights.invisiblePower)}, {"visible", toJson(lights.visiblePower)}}}};
     info["added_lamp"] = lamp;
     info["materials"] = materialsOf(scene);

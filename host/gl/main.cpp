@@ -81,6 +81,10 @@ void run(const Arguments& arguments) {
     if (scene.display != glm::vec2(0.0f, 1.0f)) {
         throw InputError(arguments.scene, "display", "is not what OpenGL draws", "expected [0, 1]");
     }
+    if (!scene.pointEmitters.empty()) {
+        throw InputError(arguments.scene, "lights", "have point lights",
+                         "expected emitting surfaces, for which point lights are put here");
+    }
     for (const Material& material : scene.materials) {
         if (material.metallic > 0.0f)
             throw InputError(arguments.scene, fmt::format("material {}", material.name), "is a metal",

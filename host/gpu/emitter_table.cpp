@@ -1,6 +1,7 @@
 #include "host/gpu/emitter_table.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace duolux {
 
@@ -71,20 +72,11 @@ std::vector<AliasEntry> buildAliasTable(std::span<const double> weights) {
 EmitterTable buildEmitterTable(const Scene& scene, std::span<const std::uint32_t> emitters,
                                bool bothComponents) {
     const Geometry& geometry = scene.geometry;
-    std::vector<double> weights;
-    double total = 0.0;
-    for (const std::uint32_t i : emitters) {
-        weights.push_back(areaOf(geometry, i) *
-                          brightness(scene.materials[geometry.materials[i]].emission, bothComponents));
-        total += weights.back();
-    }
     EmitterTable table;
-    const bool counts = total > 0.0;
-    const std::vector<AliasEntry> aliases =
-        counts ? buildAliasTable(weights) : std::vector<AliasEntry>(emitters.size());
-    for (std::size_t i = 0; i < emitters.size(); ++i) {
-        const glm::uvec3 index = geometry.triangles[emitters[i]];
-        const Emission& emission = scene.materials[geometry.materials[emitters[i]]].emission;
+    std::vector<double> weights;
+    for (const std::uint32_t i : emitters) {
+        const glm::uvec3 index = geometry.triangles[i];
+        const Emission& emission = scene.materials[geometry.materials[i]].emission;
         shared::DeviceEmitter record{};
         record.v0 = geometry.positions[index.x];
         record.v1 = geometry.positions[index.y];
@@ -93,12 +85,33 @@ EmitterTable buildEmitterTable(const Scene& scene, std::span<const std::uint32_t
         record.positionError = pointErrorOf(record.v0, record.v1, record.v2);
         record.invisible = emission.invisible;
         record.visible = emission.visible;
-        if (counts) record.density = static_cast<float>(brightness(emission, bothComponents) / total);
+        table.records.push_back(record);
+        weights.push_back(areaOf(geometry, i) * brightness(emission, bothComponents));
+    }
+    for (const PointEmitter& point : scene.pointEmitters) {
+        shared::DeviceEmitter record{};
+        record.v0 = point.position;
+        record.flags = shared::kEmitterPoint;
+        record.invisible = point.invisible;
+        record.visible = point.visible;
+        table.records.push_back(record);
+        // The power is 4 pi times the intensity; that of a triangle pi times radiance and area.
+        weights.push_back(4.0 * brightness({point.invisible, point.visible, Sides::kFront}, bothComponents));
+    }
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    if (!(total > 0.0)) return table;
+    const std::vector<AliasEntry> aliases = buildAliasTable(weights);
+    for (std::size_t i = 0; i < table.records.size(); ++i) {
+        shared::DeviceEmitter& record = table.records[i];
+        const bool isPoint = i >= emitters.size();
+        const double bright =
+            isPoint ? weights[i]
+                    : brightness(scene.materials[geometry.materials[emitters[i]]].emission, bothComponents);
+        record.density = static_cast<float>(bright / total);
         record.threshold = aliases[i].threshold;
         record.alias = aliases[i].alias;
-        table.records.push_back(record);
     }
-    if (counts) table.choices = static_cast<std::uint32_t>(emitters.size());
+    table.choices = static_cast<std::uint32_t>(table.records.size());
     return table;
 }
 

@@ -29,9 +29,9 @@ struct EmitterTable {
     std::uint32_t choices = 0;
 };
 
-/// `emitters`: the triangles that emit, ascending. `bothComponents`: whether the power of both components
-/// counts, because visible emission reaches surfaces or the light tracer carries it to the camera. Otherwise
-/// only the invisible component counts.
+/// Triangles first, then point emitters. `emitters`: the triangles that emit, ascending. `bothComponents`:
+/// whether the power of both components counts, because visible emission reaches surfaces or the light tracer
+/// carries it to the camera. Otherwise only the invisible component counts.
 EmitterTable buildEmitterTable(const Scene& scene, std::span<const std::uint32_t> emitters,
                                bool bothComponents);
 

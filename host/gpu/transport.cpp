@@ -96,6 +96,13 @@ double brightestEmission(const Scene& scene) {
         const glm::dvec3 e = glm::max(emission.invisible, emission.visible);
         brightest = std::max({brightest, e.x, e.y, e.z});
     }
+    if (scene.pointEmitters.empty()) return brightest;
+    const Bounds bounds = boundsOf(scene.geometry);
+    const glm::dvec3 extent = glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower);
+    for (const PointEmitter& point : scene.pointEmitters) {
+        const glm::dvec3 e = glm::max(point.invisible, point.visible);
+        brightest = std::max(brightest, std::max({e.x, e.y, e.z}) / glm::dot(extent, extent));
+    }
     return brightest;
 }
 

@@ -34,7 +34,8 @@ TransportTraits analyseTransport(const Scene& scene);
 /// True at the indices of materials that triangles refer to; only these count.
 std::vector<bool> usedMaterials(const Scene& scene);
 
-/// The largest emitted radiance over all materials, channels and components; 0 if nothing emits.
+/// The largest emitted radiance over all materials, channels and components; of point emitters the irradiance
+/// at a distance of the scene's extent. 0 if nothing emits.
 double brightestEmission(const Scene& scene);
 
 }  // namespace duolux

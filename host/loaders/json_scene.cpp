@@ -185,11 +185,20 @@ void readObjects(const JsonNode& node, SceneContents& contents) {
     }
 }
 
-void readLight(const JsonNode& node, SceneContents& contents) {
+JsonNode emissionOf(const JsonNode& light) {
+    return light.require("emission", R"(expected {"invisible": c, "visible": c})");
+}
+
+void readPoint(const JsonNode& node, SceneContents& contents) {
+    node.expectKeys({"type", "position", "emission"});
+    SceneContents::Point point{node, readPlace(node.require("position", placeRemedy())), {}};
+    readIntensity(emissionOf(node), point.emitter);
+    contents.points.push_back(std::move(point));
+}
+
+void readRectangle(const JsonNode& node, SceneContents& contents) {
     constexpr double kSmallestSine = 1e-6;
     node.expectKeys({"type", "origin", "edge1", "edge2", "emission", "reflectance"});
-    static const std::array<std::string, 1> kTypes{"rectangle"};
-    node.require("type", "expected \"rectangle\"").choice(kTypes);
     SceneContents::Light light{node,
                                readPlace(node.require("origin", placeRemedy())),
                                glm::vec3(readDirection(node.require("edge1", directionRemedy()))),
@@ -201,10 +210,16 @@ void readLight(const JsonNode& node, SceneContents& contents) {
     Material& material = light.material;
     material.name = node.path();
     material.baseColor = glm::vec3(0.0f);
-    readEmission(node.require("emission", R"(expected {"invisible": c, "visible": c})"), material.emission);
+    readEmission(emissionOf(node), material.emission);
     if (const auto reflectance = node.find("reflectance"))
         material.reflectance = readReflectance(*reflectance);
     contents.lights.push_back(std::move(light));
+}
+
+void readLight(const JsonNode& node, SceneContents& contents) {
+    static const std::array<std::string, 2> kTypes{"point", "rectangle"};
+    const std::size_t type = node.require("type", "expected \"point\" or \"rectangle\"").choice(kTypes);
+    (type == 0 ? readPoint : readRectangle)(node, contents);
 }
 
 /// Names of defined materials that no face has.

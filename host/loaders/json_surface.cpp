@@ -44,6 +44,14 @@ Sides readSides(const JsonNode& node) {
     return node.choice(kNames) == 0 ? Sides::kFront : Sides::kBoth;
 }
 
+/// What is not given is left as it is.
+void readComponents(const JsonNode& node, const char* quantity, glm::vec3& invisible, glm::vec3& visible) {
+    const std::string remedy =
+        fmt::format("expected {}: a number or [r, g, b], from 0 to {:g}", quantity, kLargestRadiance);
+    if (const auto value = node.find("invisible")) invisible = value->colour(0.0, kLargestRadiance, remedy);
+    if (const auto value = node.find("visible")) visible = value->colour(0.0, kLargestRadiance, remedy);
+}
+
 }  // namespace
 
 Reflectance readReflectance(const JsonNode& node) {
@@ -65,15 +73,14 @@ Reflectance readReflectance(const JsonNode& node) {
 }
 
 void readEmission(const JsonNode& node, Emission& emission) {
-    const std::string remedy =
-        fmt::format("expected a radiance: a number or [r, g, b], from 0 to {:g}", kLargestRadiance);
     node.expectKeys({"invisible", "visible", "sides"});
-    if (const auto invisible = node.find("invisible")) {
-        emission.invisible = invisible->colour(0.0, kLargestRadiance, remedy);
-    }
-    if (const auto visible = node.find("visible"))
-        emission.visible = visible->colour(0.0, kLargestRadiance, remedy);
+    readComponents(node, "a radiance", emission.invisible, emission.visible);
     if (const auto sides = node.find("sides")) emission.sides = readSides(*sides);
+}
+
+void readIntensity(const JsonNode& node, PointEmitter& emitter) {
+    node.expectKeys({"invisible", "visible"});
+    readComponents(node, "a radiant intensity", emitter.invisible, emitter.visible);
 }
 
 void readMaterial(const JsonNode& node, Material& material) {

@@ -11,6 +11,9 @@ Reflectance readReflectance(const JsonNode& node);
 /// {"invisible": c, "visible": c, "sides": s}; absent keys leave `emission` unchanged.
 void readEmission(const JsonNode& node, Emission& emission);
 
+/// The components of a point emitter's radiant intensity.
+void readIntensity(const JsonNode& node, PointEmitter& emitter);
+
 /// Each key of the object overrides a property of the material.
 void readMaterial(const JsonNode& node, Material& material);
 

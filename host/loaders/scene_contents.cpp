@@ -152,12 +152,20 @@ void appendObjects(SceneContents& contents, Scene& scene) {
 void appendLights(const SceneContents& contents, Scene& scene) {
     Composer composer(scene);
     Losses losses;
-    for (const SceneContents::Light& light : contents.lights) {
-        const glm::dvec3 corner = light.corner - scene.origin;
-        if (glm::any(glm::greaterThan(glm::abs(corner), glm::dvec3(kLargestCoordinate)))) {
-            light.node.fail("is too far from the rest of the scene",
-                            fmt::format("expected a distance of at most {:g}", kLargestCoordinate));
+    const auto place = [&](const JsonNode& node, const glm::dvec3& inFile) {
+        const glm::dvec3 position = inFile - scene.origin;
+        if (glm::any(glm::greaterThan(glm::abs(position), glm::dvec3(kLargestCoordinate)))) {
+            node.fail("is too far from the rest of the scene",
+                      fmt::format("expected a distance of at most {:g}", kLargestCoordinate));
         }
+        return position;
+    };
+    for (const auto& [node, position, emitter] : contents.points) {
+        scene.pointEmitters.push_back(emitter);
+        scene.pointEmitters.back().position = glm::vec3(place(node, position));
+    }
+    for (const SceneContents::Light& light : contents.lights) {
+        const glm::dvec3 corner = place(light.node, light.corner);
         losses.add(light.node, roundingError(corner), typicalEdge(light));
         composer.append({glm::vec3(corner), light.edge1, light.edge2}, light.material);
     }

@@ -26,12 +26,18 @@ struct SceneContents {
         glm::vec3 edge1, edge2;
         Material material;
     };
+    struct Point {
+        JsonNode node;
+        glm::dvec3 position;
+        PointEmitter emitter;  ///< but for its position
+    };
     explicit SceneContents(Reading reading) : materialFiles(reading) {}
 
     MaterialFiles materialFiles;
     std::vector<Mesh> meshes;  ///< each file once, even if several objects use it
     std::vector<Object> objects;
     std::vector<Light> lights;
+    std::vector<Point> points;
 };
 
 /// See originFor.

@@ -180,9 +180,11 @@ class PathTracer {
 
 RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const EmitterTable& emitters) {
     const auto own = [](const Material& m) { return m.reflectance.has_value() || m.metallic > 0.0f; };
-    if (!scene.geometry.normals.empty() || std::any_of(scene.materials.begin(), scene.materials.end(), own)) {
+    if (!scene.geometry.normals.empty() || !scene.pointEmitters.empty() ||
+        std::any_of(scene.materials.begin(), scene.materials.end(), own)) {
         throw UsageError(
-            fmt::format("{}: Embree's path tracer supports only flat normals, diffuse surfaces and `global`",
+            fmt::format("{}: Embree's path tracer supports only flat normals, diffuse surfaces, emitting "
+                        "triangles and `global`",
                         scene.source.string()));
     }
     const PathTracer tracer(embree, scene, emitters);

@@ -76,6 +76,8 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
             {shared::kSpecVisibleCrosses, traits.visibleCrosses},
             {shared::kSpecOneReflectance, traits.oneReflectance},
             {shared::kSpecLobes, traits.lobes},
+            {shared::kSpecEmitterKinds, (deviceScene.emitters.empty() ? 0u : shared::kEmitterKindTriangle) |
+                                            (scene.pointEmitters.empty() ? 0u : shared::kEmitterKindPoint)},
             {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecPlanes, deviceScene.hasPlanes},

@@ -9,6 +9,7 @@ bool emits(const Scene& scene, std::size_t triangle) {
 }
 
 bool anyEmitter(const Scene& scene) {
+    if (!scene.pointEmitters.empty()) return true;
     return std::ranges::any_of(scene.geometry.materials, [&](std::uint32_t material) {
         return scene.materials[material].emission.any();
     });

@@ -9,6 +9,7 @@ namespace duolux {
 
 bool emits(const Scene& scene, std::size_t triangle);
 
+/// Whether anything emits, be it a triangle or a point.
 bool anyEmitter(const Scene& scene);
 
 /// The triangles that emit, ascending.

@@ -61,6 +61,11 @@ EmitterSummary summariseEmitters(const Scene& scene) {
         summary.invisiblePower += sides * glm::pi<double>() * area * glm::dvec3(emission.invisible);
         summary.visiblePower += sides * glm::pi<double>() * area * glm::dvec3(emission.visible);
     }
+    for (const PointEmitter& point : scene.pointEmitters) {
+        ++summary.points;
+        summary.invisiblePower += 4.0 * glm::pi<double>() * glm::dvec3(point.invisible);
+        summary.visiblePower += 4.0 * glm::pi<double>() * glm::dvec3(point.visible);
+    }
     return summary;
 }
 

@@ -27,6 +27,7 @@ MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& a
 
 /// Totals over the emitting triangles of a scene.
 struct EmitterSummary {
+    std::size_t points = 0;
     std::size_t triangles = 0;
     double area = 0.0;               ///< in scene units squared
     glm::dvec3 invisiblePower{0.0};  ///< W in scene units: pi A E, or 2 pi A E for both sides

@@ -77,6 +77,10 @@ std::string hashScene(const Scene& scene) {
     addArray(hasher, geometry.materials);
     addArray(hasher, geometry.normals);
     addArray(hasher, geometry.normalIndices);
+    for (const auto& [position, invisible, visible] : scene.pointEmitters) {
+        for (const glm::vec3& field : {position, invisible, visible})
+            addTo(hasher, field);
+    }
     for (const Material& material : scene.materials) {
         forEachField(material, [&]<typename T>(const char*, const T& field) {
             if constexpr (std::is_same_v<T, std::optional<Reflectance>>) {

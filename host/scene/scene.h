@@ -60,6 +60,13 @@ struct RenderSettings {
     std::uint32_t layers = 0;  ///< optional layers of the film, a FilmLayerSet; kPath only
 };
 
+/// Emits the same radiant intensity in all directions, in W sr^-1 (scene units), components >= 0.
+struct PointEmitter {
+    glm::vec3 position;
+    glm::vec3 invisible{0.0f};
+    glm::vec3 visible{0.0f};
+};
+
 /// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera
 /// vectors.
 struct Scene {
@@ -72,6 +79,7 @@ struct Scene {
     Reflectance reflectance;        ///< scene-wide
     std::vector<Material> materials;
     Geometry geometry;
+    std::vector<PointEmitter> pointEmitters;
     /// What was taken off the coordinates of the file, in which `camera` and `geometry` would lose precision
     /// as floats; 0 unless the scene is far from the origin for its extent.
     glm::dvec3 origin{0.0};

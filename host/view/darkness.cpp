@@ -82,6 +82,10 @@ class Inspection {
             fromInvisible = fromInvisible || any(opaque.m10);
             fromVisible = fromVisible || any(opaque.m11);
         }
+        for (const PointEmitter& point : scene_.pointEmitters) {
+            invisible = invisible || any(point.invisible);
+            visible = visible || any(point.visible);
+        }
         return (invisible && fromInvisible) || (visible && fromVisible);
     }
 

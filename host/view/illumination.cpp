@@ -59,6 +59,14 @@ Illumination::Illumination(const Surface& surface, std::optional<std::uint32_t> 
         emitters_.push_back({i, power_, power, area / size, radiance, both});
         power_ += power;
     }
+    if (material) return;
+    for (const PointEmitter& point : surface.scene().pointEmitters) {
+        // In the unit of the others, radiance times twice the area, of which the flux is pi / 2.
+        const double power = 8.0 * static_cast<double>(mean(point.invisible));
+        if (!(power > 0.0)) continue;
+        emitters_.push_back({kPoint, power_, power, point.position, mean(point.invisible), false});
+        power_ += power;
+    }
 }
 
 float Illumination::direct(const SurfacePoint& point, const glm::vec3& random) const {
@@ -66,10 +74,17 @@ float Illumination::direct(const SurfacePoint& point, const glm::vec3& random) c
     const auto after = std::upper_bound(emitters_.begin(), emitters_.end(), wanted,
                                         [](double p, const Emitter& e) { return p < e.powerBefore; });
     const Emitter& emitter = *(after - 1);
+    const glm::vec3 origin = point.position + kOffset * point.normal;
+    if (emitter.triangle == kPoint) {
+        const glm::vec3 offset = emitter.normal - origin;
+        const float squared = glm::dot(offset, offset);
+        const float cosine = glm::dot(point.normal, offset) / std::sqrt(squared);
+        if (!(cosine > 0.0f) || !surface_.sees(origin, emitter.normal, point.triangle)) return 0.0f;
+        return cosine / squared * static_cast<float>(power_) / (8.0f * glm::pi<float>());
+    }
     const Surface::Triangle& t = surface_.triangles()[emitter.triangle];
     const float root = std::sqrt(random.x);
     const glm::vec3 at = t.corner + root * (1.0f - random.y) * t.edge1 + root * random.y * t.edge2;
-    const glm::vec3 origin = point.position + kOffset * point.normal;
     const glm::vec3 offset = at - origin;
     const float squared = glm::dot(offset, offset);
     if (!(squared > 0.0f) || emitter.triangle == point.triangle) return 0.0f;

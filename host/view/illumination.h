@@ -31,7 +31,7 @@ class Illumination {
     explicit Illumination(const Surface& surface, std::optional<std::uint32_t> material = std::nullopt,
                           bool bothSides = false);
 
-    /// Whether any triangle emits invisible light, which lights other surfaces.
+    /// Whether anything emits invisible light, which lights other surfaces.
     bool lights() const { return !emitters_.empty(); }
 
     /// Radiance that a white surface would reflect here; deterministic for a given seed.
@@ -42,12 +42,13 @@ class Illumination {
 
   private:
     struct Emitter {
-        std::uint32_t triangle;
+        std::uint32_t triangle;     // kPoint: it is a point
         double powerBefore, power;  // total power of the preceding emitters, and the emitter's own power
-        glm::vec3 normal;
+        glm::vec3 normal;           // of a point: its position
         float radiance;
         bool both;
     };
+    static constexpr std::uint32_t kPoint = 0xffffffffu;
 
     float direct(const SurfacePoint& point, const glm::vec3& random) const;
 

@@ -22,8 +22,9 @@ void connectToEmitter(inout Shadow shadow, inout Gathered gathered, SurfaceHit h
     EmitterSample light = sampleEmitter(params.emitterCount, hit.point.position, words);
     BsdfFrame frame = frameOf(hit.point);
     vec3 f = bsdfEvaluate(hit.material.bsdf, frame, wo, light.wi, kModeRadiance);
-    // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf.
-    float weight = 1.0 / (light.pdf + bsdfPdf(hit.material.bsdf, frame, wo, light.wi, kModeRadiance));
+    // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf. No other strategy finds a delta.
+    float otherPdf = light.delta ? 0.0 : bsdfPdf(hit.material.bsdf, frame, wo, light.wi, kModeRadiance);
+    float weight = 1.0 / (light.pdf + otherPdf);
     LightMatrix reflected = lightScale(importance, f * (bsdfCosine(frame, light.wi, kModeRadiance) * weight));
     Light contribution = lightApply(reflected, light.emission);
     bool contributes = light.distance > 0.0 && maxComponent(contribution.invisible + contribution.visible) > 0.0;

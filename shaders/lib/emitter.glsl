@@ -4,8 +4,16 @@
 #ifndef DUOLUX_LIB_EMITTER_GLSL
 #define DUOLUX_LIB_EMITTER_GLSL
 
+#include "shaders/lib/emitter/point.glsl"
 #include "shaders/lib/emitter/triangle.glsl"
 #include "shaders/lib/rng.glsl"
+
+layout(constant_id = kSpecEmitterKinds) const uint kEmitterKinds = 3u;
+
+const bool kTriangleEmitters = (kEmitterKinds & kEmitterKindTriangle) != 0u;
+const bool kPointEmitters = (kEmitterKinds & kEmitterKindPoint) != 0u;
+
+bool isPoint(Emitter emitter) { return kPointEmitters && (!kTriangleEmitters || isPointEmitter(emitter)); }
 
 // An emitter chosen with the probability that its density holds, and a uniform point of the unit square, for a point on
 // it.
@@ -30,7 +38,9 @@ EmitterChoice chooseEmitter(uint emitterCount, uvec2 u) {
 // Samples light that reaches a point of the scene if nothing is in between.
 EmitterSample sampleEmitter(uint emitterCount, vec3 point, uvec2 u) {
     EmitterChoice choice = chooseEmitter(emitterCount, u);
-    return sampleTriangleEmitter(fetchEmitter(choice.index), choice.index, point, choice.u);
+    Emitter emitter = fetchEmitter(choice.index);
+    if (isPoint(emitter)) return samplePointEmitter(emitter, choice.index, point);
+    return sampleTriangleEmitter(emitter, choice.index, point, choice.u);
 }
 
 // The density per steradian with which sampleEmitter samples the direction in which a ray has met this emitter.
@@ -42,20 +52,35 @@ float emitterPdf(Emitter emitter, float distanceSquared, float cosAtEmitter) {
 Light irradianceFromEmitters(uint emitterCount, vec3 point, vec3 normal) {
     Light total = Light(vec3(0.0), vec3(0.0));
     for (uint i = 0u; i < emitterCount; i++) {
-        Light light = irradianceFromTriangle(fetchEmitter(i), point, normal);
+        Emitter emitter = fetchEmitter(i);
+        Light light = Light(vec3(0.0), vec3(0.0));
+        if (isPoint(emitter)) {
+            light = irradianceFromPoint(emitter, point, normal);
+        } else {
+            light = irradianceFromTriangle(emitter, point, normal);
+        }
         total.invisible += light.invisible;
         total.visible += light.visible;
     }
     return total;
 }
 
-EmitterPoint pointOnEmitter(Emitter emitter, vec2 u) { return pointOnTriangleEmitter(emitter, u); }
+EmitterPoint pointOnEmitter(Emitter emitter, vec2 u) {
+    if (isPoint(emitter)) return EmitterPoint(emitter.v0, vec3(0.0, 0.0, 1.0), 0.0);
+    return pointOnTriangleEmitter(emitter, u);
+}
 
 // A particle that leaves from this point.
-EmittedRay emitRay(Emitter emitter, EmitterPoint on, float side, vec2 u) { return emitFromTriangle(emitter, on, side, u); }
+EmittedRay emitRay(Emitter emitter, EmitterPoint on, float side, vec2 u) {
+    if (isPoint(emitter)) return emitFromPoint(emitter, u);
+    return emitFromTriangle(emitter, on, side, u);
+}
 
+// The camera cannot see a point emitter.
 EmitterSeen seeEmitter(Emitter emitter, EmitterPoint on, vec3 toCamera) {
-    return seeTriangleEmitter(emitter, on, toCamera);
+    EmitterSeen seen = seeTriangleEmitter(emitter, on, toCamera);
+    if (isPoint(emitter)) seen.intensity = Light(vec3(0.0), vec3(0.0));
+    return seen;
 }
 
 // Balance heuristic: the weight of the strategy with density a.

@@ -4,11 +4,22 @@
 
 const float kPi = 3.14159265358979;
 
+// A uniform angle around an axis, in radians.
+float azimuth(float u) { return 2.0 * kPi * u; }
+
 // Direction on the hemisphere around +z with pdf cos / pi (per steradian): Malley's method.
 vec3 cosineHemisphere(vec2 u) {
     float r = sqrt(u.x);
-    float phi = 2.0 * kPi * u.y;
+    float phi = azimuth(u.y);
     return vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
+}
+
+// Uniform direction on the sphere.
+vec3 uniformSphere(vec2 u) {
+    float z = 1.0 - 2.0 * u.x;
+    float r = sqrt(max(1.0 - z * z, 0.0));
+    float phi = azimuth(u.y);
+    return vec3(r * cos(phi), r * sin(phi), z);
 }
 
 // Barycentric coordinates (of the second and third vertex), uniform in area: Heitz, "A Low-Distortion Map Between

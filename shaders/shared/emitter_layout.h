@@ -1,5 +1,6 @@
 // The record of an emitter, shared by C++ and GLSL. The emitting triangles of a scene come first, in the order of their
-// ranks (DevicePair::primitive), so that the rank of an emitting triangle is the index of its record.
+// ranks (DevicePair::primitive), so that the rank of an emitting triangle is the index of its record. Point emitters
+// follow.
 #ifndef DUOLUX_SHADERS_SHARED_EMITTER_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_EMITTER_LAYOUT_H
 
@@ -13,17 +14,24 @@ DUOLUX_CONST uint kEmitterTexels = 6u;  // of 4 x uint32
 DUOLUX_CONST uint kEmitterFront = 1u;       // emits on the front side
 DUOLUX_CONST uint kEmitterBack = 2u;        // emits on the back side
 DUOLUX_CONST uint kEmitterCoincident = 4u;  // other surfaces coincide with the triangle, kSpecPlanes only
+DUOLUX_CONST uint kEmitterPoint = 8u;       // not a triangle, but a point
+
+// Specialisation constant: the sum of the kinds of emitters in the scene.
+DUOLUX_CONST uint kSpecEmitterKinds = 24u;
+DUOLUX_CONST uint kEmitterKindTriangle = 1u;
+DUOLUX_CONST uint kEmitterKindPoint = 2u;
 
 #ifdef __cplusplus
 struct DeviceEmitter {
-    vec3 v0;  // corners
+    vec3 v0;  // v0, v1, v2: corners; v0: position of a point emitter
     uint flags;
     vec3 v1;
     float positionError;  // bound on the rounding error of a point on the triangle, as for hits
     vec3 v2;
     uint triangle;   // index of the triangle in device memory, kSpecPlanes only
-    vec3 invisible;  // radiance
-    float density;   // with which next-event estimation samples a point of the emitter, m^-2
+    vec3 invisible;  // radiance; of a point emitter radiant intensity, W sr^-1
+    float density;   // with which next-event estimation samples a point of the emitter, m^-2; of a point
+                     // emitter the probability of choosing it
     vec3 visible;
     uint unused;
     // Entry of the alias table (Walker 1974; Vose 1991).

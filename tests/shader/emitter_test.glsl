@@ -110,3 +110,36 @@ TEST(CameraSeesTheSideThatFacesIt) {
     EXPECT_GT(dot(seen.point.geometricNormal, toCamera), 0.0);
     EXPECT_NEAR(seen.intensity.invisible, emissionOn(emitter, dot(on.normal, toCamera) > 0.0).invisible / 7.0, 1e-6);
 }
+
+Emitter pointEmitter() {
+    return Emitter(randomVec3(-1.0, 1.0), vec3(0.0), vec3(0.0), kEmitterPoint, 0.0, 0u,
+                   Light(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 0.25);
+}
+
+// The inverse square of the distance, in the only direction.
+TEST(PointEmitterLightsByInverseSquare) {
+    Emitter emitter = pointEmitter();
+    vec3 receiver = randomVec3(-2.0, 2.0);
+    vec3 normal = randomDirection();
+    EmitterSample s = samplePointEmitter(emitter, 3u, receiver);
+    float squared = dot(emitter.v0 - receiver, emitter.v0 - receiver);
+    EXPECT_NEAR(receiver + s.wi * s.distance, emitter.v0, 1e-6);
+    EXPECT_NEAR(s.emission.visible * squared, vec3(4.0, 5.0, 6.0), 4e-6);
+    EXPECT_TRUE(s.delta);
+    EXPECT_EQ(s.pdf, 0.25);
+    EXPECT_EQ(s.emitter, 3u);
+    Light whole = irradianceFromPoint(emitter, receiver, normal);
+    vec3 expected = s.emission.invisible * max(dot(normal, s.wi), 0.0);
+    EXPECT_NEAR(whole.invisible, expected, 1e-5 * maxComponent(s.emission.invisible));
+}
+
+// A particle carries 4 pi times the intensity over the probability of choosing the emitter, and starts at the point.
+TEST(PointEmitterSendsItsPower) {
+    Emitter emitter = pointEmitter();
+    EmittedRay ray = emitFromPoint(emitter, randomVec2());
+    EXPECT_NEAR(length(ray.direction), 1.0, 3e-7);
+    EXPECT_NEAR(ray.flux.invisible, vec3(1.0, 2.0, 3.0) * (4.0 * 3.14159265 / 0.25), 1e-4);
+    EXPECT_EQ(leaveSurface(ray.point, ray.direction).origin, emitter.v0);
+    EmitterSeen seen = seeEmitter(emitter, pointOnEmitter(emitter, randomVec2()), randomDirection());
+    EXPECT_EQ(seen.intensity.visible, vec3(0.0));
+}

@@ -58,7 +58,6 @@ DUOLUX_MIRROR_TYPE(Emitter, s.v0, s.flags, s.v1, s.positionError, s.v2, s.triang
 DUOLUX_MIRROR_TYPE(AliasEntry, s.threshold, s.alias);
 DUOLUX_MIRROR_TYPE(EmitterChoice, s.index, s.u);
 DUOLUX_MIRROR_TYPE(EmitterPoint, s.position, s.normal, s.positionError);
-DUOLUX_MIRROR_TYPE(EmitterSample, s.wi, s.distance, s.emission, s.pdf, s.emitter, s.coincident);
 DUOLUX_MIRROR_TYPE(EmittedRay, s.point, s.direction, s.flux);
 DUOLUX_MIRROR_TYPE(EmitterSeen, s.point, s.intensity);
 DUOLUX_MIRROR_TYPE(Gathered, s.light, s.lastBounce, s.previousBounce);

@@ -83,3 +83,11 @@ void expectFrame(vec3 n) {
 TEST_N(BasisIsOrthonormalAndRightHanded, 65536) { expectFrame(randomDirection()); }
 
 TEST_N(BasisIsOrthonormalAndRightHandedWhereItIsHard, 65536) { expectFrame(hardNormal()); }
+
+// Archimedes: the height of a uniform point of the sphere is uniform.
+TEST(UniformSphereIsUnitAndOfUniformHeight) {
+    vec2 u = randomVec2();
+    vec3 w = uniformSphere(u);
+    EXPECT_NEAR(length(w), 1.0, 3e-7);
+    EXPECT_EQ(w.z, 1.0 - 2.0 * u.x);
+}

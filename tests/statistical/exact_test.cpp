@@ -80,6 +80,8 @@ TEST(ClosedForm, IsChosenWhereItAppliesAndPays) {
 
 INSTANTIATE_TEST_SUITE_P(Metal, Exact, testing::ValuesIn(metalCases()),
                          [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Points, Exact, testing::ValuesIn(pointCases()),
+                         [](const auto& test) { return test.param.name; });
 INSTANTIATE_TEST_SUITE_P(Often, Exact, testing::ValuesIn(everyOther(exactCases(), 0)),
                          [](const auto& test) { return test.param.name; });
 INSTANTIATE_TEST_SUITE_P(Nightly, Exact, testing::ValuesIn(everyOther(exactCases(), 1)),

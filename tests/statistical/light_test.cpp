@@ -164,6 +164,13 @@ std::vector<PairCase> pairCases() {
     cases.push_back({"MetalFloorGlossy", ofMetal(leaningFloor(), 0.6f)});
     cases.push_back({"MetalSphereGlossy", ofMetal(smoothSphere(fullReflectance()), 0.4f)});
     cases.push_back({"MetalFloorRough", ofMetal(leaningFloor(), 0.8f)});
+    // Points beside the lamp, or alone.
+    Scene lit = smoothSphere(fullReflectance());
+    lit.pointEmitters = {{{-2, 3, 0.5f}, {30, 20, 10}, {5, 10, 15}}, {{1.5f, 1.5f, 1.5f}, {1, 2, 3}, {}}};
+    cases.push_back({"PointsAndLamp", lit});
+    for (Material& material : lit.materials)
+        material.emission = {};
+    cases.push_back({"PointsAlone", lit});
     Scene parallel = leaningFloor();
     parallel.camera.type = CameraType::kOrthographic;
     parallel.camera.height = 3.0f;

@@ -32,6 +32,9 @@ std::vector<ExactCase> enclosureCases();
 /// The same with metallic walls, which the reference does not know.
 std::vector<ExactCase> metalCases();
 
+/// A diffuse receiver under points, which the reference does not know.
+std::vector<ExactCase> pointCases();
+
 /// Concentric spheres that pass light on: products of T in the order met from the camera.
 std::vector<ExactCase> crossingCases();
 

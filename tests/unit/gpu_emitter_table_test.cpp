@@ -75,6 +75,25 @@ TEST(EmitterTable, VisibleEmissionAloneGivesNothingToChooseFrom) {
     EXPECT_EQ(tableOf(scene, true).choices, 1u);
 }
 
+// A point of intensity I has the power 4 pi I, a triangle of one side pi L A.
+TEST(EmitterTable, PointsFollowAndAreChosenByPower) {
+    Scene scene = twoEmitters();
+    scene.pointEmitters = {{glm::vec3(1, 2, 3), glm::vec3(0.5f), glm::vec3(0.25f)}};
+    const EmitterTable table = tableOf(scene, false);
+    ASSERT_EQ(table.records.size(), 3u);
+    EXPECT_EQ(table.choices, 3u);
+    EXPECT_EQ(table.records[2].v0, glm::vec3(1, 2, 3));
+    EXPECT_EQ(table.records[2].flags, shared::kEmitterPoint);
+    EXPECT_EQ(table.records[2].visible, glm::vec3(0.25f));
+    // Powers over pi: 4.5 and 12 as above, and 4 times 1.5.
+    EXPECT_FLOAT_EQ(table.records[2].density, 6.0f / 22.5f);
+    EXPECT_FLOAT_EQ(table.records[0].density, 9.0f / 22.5f);
+    // Points alone.
+    for (Material& material : scene.materials)
+        material.emission = {};
+    EXPECT_FLOAT_EQ(tableOf(scene, true).records.at(0).density, 1.0f);
+}
+
 // Emitters first, in their order, then the remaining triangles in theirs.
 TEST(TriangleRanks, EmittersComeFirst) {
     const std::vector<std::uint32_t> emitters{2, 3, 7};

@@ -271,6 +271,15 @@ TEST_F(JsonTest, MaterialsAreChecked) {
                 HasSubstr("materials.white.sides: is \"back\"; expected one of \"front\""));
 }
 
+TEST_F(JsonTest, PointLights) {
+    const Scene scene = sceneWith(R"("lights": [{"type": "point", "position": [1, 2, 3],
+        "emission": {"invisible": [4, 5, 6], "visible": 7}}])");
+    ASSERT_EQ(scene.pointEmitters.size(), 1u);
+    EXPECT_EQ(scene.pointEmitters[0].position, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene.pointEmitters[0].invisible, glm::vec3(4, 5, 6));
+    EXPECT_EQ(scene.pointEmitters[0].visible, glm::vec3(7));
+}
+
 TEST_F(JsonTest, ObjectsAreChecked) {
     const auto error = [&](const std::string& objects) {
         return errorOfJson("{\"duolux\": 1, \"objects\": " + objects + "}");

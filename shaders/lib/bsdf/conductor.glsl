@@ -53,7 +53,7 @@ vec3 ggxSample(float alpha, vec3 wo, vec2 u) {
     vec3 stretched = normalize(vec3(wo.xy * alpha, wo.z));
     float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
     float r = sqrt(max(1.0 - z * z, 0.0));
-    float phi = 2.0 * kPi * u.x;
+    float phi = azimuth(u.x);
     vec3 sum = vec3(r * cos(phi), r * sin(phi), z) + stretched;
     vec3 h = normalize(vec3(sum.xy * alpha, max(sum.z, 0.0)));
     return 2.0 * dot(wo, h) * h - wo;

@@ -54,7 +54,8 @@ struct EmitterSample {
     vec3 wi;          // unit, from the point to the emitter
     float distance;   // to just in front of the emitter, or to the emitter itself if surfaces coincide with it
     Light emission;   // radiance that leaves the emitter towards the point
-    float pdf;        // per steradian
+    float pdf;        // per steradian; if `delta`, the probability of choosing the emitter
+    bool delta;       // wi is the only direction, and emission is irradiance that faces it
     uint emitter;     // index
     uint coincident;  // the emitter's triangle in device memory if other surfaces coincide with it, else kNoTriangle
 };

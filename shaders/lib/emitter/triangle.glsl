@@ -43,6 +43,7 @@ EmitterSample sampleTriangleEmitter(Emitter emitter, uint index, vec3 point, vec
     float cosAtEmitter = dot(on.normal, s.wi);
     s.emission = emissionOn(emitter, cosAtEmitter < 0.0);
     s.pdf = pdfAreaToSolidAngle(emitter.density, distanceSquared, cosAtEmitter);
+    s.delta = false;
     s.emitter = index;
     s.coincident = coincident ? emitter.triangle : kNoTriangle;
     return s;
