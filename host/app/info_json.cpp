@@ -121,7 +121,7 @@ std::string onOneLine(const Json& json) {
 std::size_t memoryOf(const Geometry& geometry) {
     return geometry.positions.size() * sizeof(glm::vec3) + geometry.triangles.size() * sizeof(glm::uvec3) +
            geometry.materials.size() * sizeof(std::uint32_t) + geometry.normals.size() * sizeof(glm::vec3) +
-           geometry.normalIndices.size() * sizeof(glm::uvec3);
+           geometry.normalIndices.size() * sizeof(glm::uvec3) + geometry.colours.size() * sizeof(glm::vec3);
 }
 
 std::size_t smoothTriangles(const Geometry& geometry) {

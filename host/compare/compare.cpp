@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/base/srgb.h"
 #include "host/compare/flip.h"
-#include "host/film/srgb.h"
 
 namespace duolux {
 

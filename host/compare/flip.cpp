@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "host/base/parallel.h"
-#include "host/film/srgb.h"
+#include "host/base/srgb.h"
 
 namespace duolux {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "host/film/srgb.h"
+#include "host/base/srgb.h"
 
 namespace duolux {
 

@@ -12,8 +12,8 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/base/srgb.h"
 #include "host/film/codec.h"
-#include "host/film/srgb.h"
 
 namespace duolux {
 

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "host/base/srgb.h"
 #include "host/film/codec.h"
-#include "host/film/srgb.h"
 #include "host/film/text.h"
 
 namespace duolux {

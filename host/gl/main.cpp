@@ -78,6 +78,10 @@ void run(const Arguments& arguments) {
         scene.render.width = size.x;
         scene.render.height = size.y;
     }
+    if (!scene.geometry.colours.empty()) {
+        throw InputError(arguments.scene, "", "has colours of vertices, which duolux-gl does not draw",
+                         "expected materials alone");
+    }
     if (scene.display != glm::vec2(0.0f, 1.0f)) {
         throw InputError(arguments.scene, "display", "is not what OpenGL draws", "expected [0, 1]");
     }

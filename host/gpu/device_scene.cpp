@@ -36,6 +36,13 @@ std::uint32_t octahedralEncode(glm::vec3 n) {
     return snorm(e.x) | snorm(e.y) << 16;
 }
 
+/// See decodeColour in shaders/lib/vertex_colour.glsl.
+std::uint32_t encodeColour(const glm::vec3& colour) {
+    const glm::vec3 root = glm::sqrt(glm::clamp(colour, 0.0f, 1.0f)) * 1023.0f;
+    const auto rounded = [](float x) { return static_cast<std::uint32_t>(std::lround(x)); };
+    return rounded(root.x) | rounded(root.y) << 10 | rounded(root.z) << 20;
+}
+
 bool isSmooth(const Geometry& geometry, std::uint32_t triangle) {
     return !geometry.normals.empty() && geometry.normalIndices[triangle].x != Geometry::kNoNormal;
 }
@@ -63,6 +70,16 @@ shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t tria
         return octahedralEncode(geometry.normals[index[static_cast<int>((turn + corner) % 3)]]);
     };
     return {{normal(0), normal(1), normal(2)}, 0};
+}
+
+/// As deviceNormals.
+shared::DeviceColours deviceColours(const Geometry& geometry, std::uint32_t triangle, std::uint32_t turn) {
+    if (triangle == TrianglePair::kNone) return {};
+    const glm::uvec3 index = geometry.triangles[triangle];
+    const auto colour = [&](std::uint32_t corner) {
+        return encodeColour(geometry.colours[index[static_cast<int>((turn + corner) % 3)]]);
+    };
+    return {{colour(0), colour(1), colour(2)}, 0};
 }
 
 /// The tree over all triangles, followed by the tree over copies of the emitters.
@@ -201,8 +218,9 @@ std::vector<Binding> DeviceScene::treeBindings() const {
 }
 
 std::uint64_t DeviceScene::deviceBytes() const {
-    return nodes.allocated() + triangles.allocated() + normals.allocated() + materials.allocated() +
-           emitterRecords.allocated() + planes.allocated() + (structure ? structure->allocated() : 0);
+    return nodes.allocated() + triangles.allocated() + normals.allocated() + colours.allocated() +
+           materials.allocated() + emitterRecords.allocated() + planes.allocated() +
+           (structure ? structure->allocated() : 0);
 }
 
 void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene) {
@@ -241,6 +259,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
     std::vector<glm::vec4> planes(surfaces.used() ? 2 * trees.pairs.size() : 0);
     std::vector<shared::DevicePair> pairs(trees.pairs.size());
     std::vector<shared::DeviceNormals> normals(geometry.normals.empty() ? 0 : 2 * pairs.size());
+    std::vector<shared::DeviceColours> colours(geometry.colours.empty() ? 0 : 2 * pairs.size());
     parallelFor(pairs.size(), 1 << 15, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const TrianglePair& pair = trees.pairs[i];
@@ -248,6 +267,10 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
             pairs[i] = devicePair(geometry, ranks, pair, corners);
             for (std::size_t k = 0; k < (surfaces.used() ? (pair.isSingle() ? 1 : 2) : 0); ++k) {
                 planes[2 * i + k] = surfaces.planeOf(k == 0 ? pair.first : pair.second);
+            }
+            if (!colours.empty()) {
+                colours[2 * i] = deviceColours(geometry, pair.first, corners.turns[0]);
+                colours[2 * i + 1] = deviceColours(geometry, pair.second, corners.turns[1]);
             }
             if (normals.empty()) continue;
             normals[2 * i] = deviceNormals(geometry, pair.first, corners.turns[0]);
@@ -265,7 +288,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
     requireDeviceMemory(
         device.info(),
         trees.nodes.size() * sizeof(shared::WideNode) + pairs.size() * sizeof(shared::DevicePair) +
-            normals.size() * sizeof(shared::DeviceNormals) +
+            normals.size() * sizeof(shared::DeviceNormals) + colours.size() * sizeof(shared::DeviceColours) +
             scene.materials.size() * sizeof(shared::DeviceMaterial) +
             table.records.size() * sizeof(shared::DeviceEmitter) + planes.size() * sizeof(glm::vec4),
         scene);
@@ -276,6 +299,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         .choice = choice,
         .tuning = tuning,
         .hasSmoothNormals = !normals.empty(),
+        .hasVertexColours = !colours.empty(),
         .hasPlanes = surfaces.used(),
         .closedFormApplies = hasClosedForm(traits, !normals.empty(), table.choices),
         .emitterChoices = table.choices,
@@ -287,6 +311,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
         .triangles = Buffer::upload<shared::DevicePair>(device, treeUse, pairs, "triangles",
                                                         rayQueries ? TreeUse::kInput : TreeUse::kNone),
         .normals = Buffer::upload<shared::DeviceNormals>(device, Use::kTexels, normals, "normals"),
+        .colours = Buffer::upload<shared::DeviceColours>(device, Use::kTexels, colours, "colours"),
         .materials =
             Buffer::upload<shared::DeviceMaterial>(device, Use::kTexels, deviceMaterials(scene), "materials"),
         .emitterRecords =

@@ -24,6 +24,7 @@ struct DeviceScene {
     TuningChoice choice;  ///< as it was asked for
     Tuning tuning;
     bool hasSmoothNormals = false;
+    bool hasVertexColours = false;
     bool hasPlanes = false;  ///< distances are computed from stored planes, see SurfacePlanes
     /// Direct light has a closed form: nothing can block an emitter, surfaces are diffuse and flat, and there
     /// are so few emitters that evaluating the formula for each costs no more than sampling one.
@@ -35,7 +36,7 @@ struct DeviceScene {
     double buildSeconds = 0.0, uploadSeconds = 0.0;
 
     Buffer nodes;  ///< empty with Layout::kRayQuery
-    Buffer triangles, normals, materials, emitterRecords, planes;
+    Buffer triangles, normals, colours, materials, emitterRecords, planes;
     std::optional<AccelerationStructure> structure{};  ///< with Layout::kRayQuery
 
     WideBvh tree;                         ///< over all triangles, on the host; empty with Layout::kRayQuery

@@ -18,6 +18,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/printable.h"
+#include "host/base/srgb.h"
 #include "host/loaders/ply_body.h"
 #include "host/loaders/ply_header.h"
 #include "host/loaders/rounding.h"
@@ -33,7 +34,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
 
 /// Errors that do not prevent a file from being loaded.
-enum class Oddity { kShortFace, kBadFace, kUnusedVertex, kNormal, kCount };
+enum class Oddity { kShortFace, kBadFace, kUnusedVertex, kNormal, kColour, kAlpha, kCount };
 
 struct Description {
     Oddity kind;
@@ -45,6 +46,8 @@ constexpr Description kDescriptions[] = {
     {Oddity::kBadFace, "a face with a vertex that is not in the file", "left out"},
     {Oddity::kUnusedVertex, "a vertex that is not finite or too large", "no face uses it"},
     {Oddity::kNormal, "a normal that is 0 or not finite", "the faces at this vertex are flat"},
+    {Oddity::kColour, "a colour that is not between 0 and 1", "clamped"},
+    {Oddity::kAlpha, "a vertex that is not opaque", "alpha is ignored"},
 };
 
 /// Loads one file.
@@ -81,6 +84,7 @@ class PlyLoader {
         triangulateFaces();
         mesh_.materials.emplace_back();
         mesh_.materials.back().name = kDefaultMaterialName;
+        if (!mesh_.geometry.colours.empty()) mesh_.materials.back().baseColor = glm::vec3(1.0f);
         warn();
         return std::move(mesh_);
     }
@@ -103,7 +107,7 @@ class PlyLoader {
 
     /// The indices of three properties; empty unless all are there and none is a list.
     std::optional<std::array<std::size_t, 3>> triple(const PlyElement& element,
-                                                     const std::array<std::string_view, 3>& names) {
+                                                     const std::array<std::string_view, 3>& names) const {
         std::array<std::size_t, 3> found{};
         for (std::size_t i = 0; i < 3; ++i) {
             const auto index = element.find(names[i]);
@@ -141,11 +145,20 @@ class PlyLoader {
         };
         assign(position, kPosition);
         assign(normal, kNormal);
+        const auto colour = colourOf(element);
+        assign(colour, kColour);
+        const std::optional<std::size_t> alpha = colour ? element.find("alpha") : std::nullopt;
+        if (alpha && !element.properties[*alpha].isList()) {
+            slots[*alpha] = kAlpha;
+            used[*alpha] = true;
+        }
         noteUnused(element, used);
 
         positions_.reserve(element.count);
         if (normal) mesh_.geometry.normals.reserve(element.count);
+        if (colour) mesh_.geometry.colours.reserve(element.count);
         std::array<double, kSlots> values{};
+        values[kAlpha] = 1.0;
         for (std::uint64_t vertex = 0; vertex < element.count; ++vertex) {
             body_.beginItem();
             for (std::size_t i = 0; i < count; ++i) {
@@ -153,12 +166,15 @@ class PlyLoader {
                 if (slots[i] == kSkipped) {
                     body_.skip(property);
                 } else {
-                    values[slots[i]] = body_.value(property.type);
+                    const double value = body_.value(property.type);
+                    values[slots[i]] = slots[i] < kColour ? value : value / unitOf(property.type);
                 }
             }
             body_.endItem();
             positions_.emplace_back(values[kPosition], values[kPosition + 1], values[kPosition + 2]);
             if (normal) addNormal({values[kNormal], values[kNormal + 1], values[kNormal + 2]});
+            if (colour)
+                addColour({values[kColour], values[kColour + 1], values[kColour + 2]}, values[kAlpha]);
         }
     }
 
@@ -169,6 +185,29 @@ class PlyLoader {
             tolerate(Oddity::kNormal, "the normal is 0 or not finite", "expected a direction");
         }
         mesh_.geometry.normals.push_back(isGood ? glm::vec3(normal / length) : glm::vec3(0.0f));
+    }
+
+    std::optional<std::array<std::size_t, 3>> colourOf(const PlyElement& element) const {
+        constexpr std::array<std::array<std::string_view, 3>, 3> kNames{
+            {{"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}}};
+        for (const auto& names : kNames) {
+            if (const auto found = triple(element, names)) return found;
+        }
+        return std::nullopt;
+    }
+
+    /// `colour`: encoded by the transfer function of sRGB.
+    void addColour(const glm::dvec3& colour, double alpha) {
+        glm::vec3 linear;
+        bool isGood = true;
+        for (int i = 0; i < 3; ++i) {
+            isGood = isGood && colour[i] >= 0.0 && colour[i] <= 1.0;
+            // Also 0 for what is not a number.
+            linear[i] = colour[i] > 0.0 ? static_cast<float>(srgbDecode(std::min(colour[i], 1.0))) : 0.0f;
+        }
+        if (!isGood) tolerate(Oddity::kColour, "a colour is not between 0 and 1", "expected 0 to 1");
+        if (alpha < 1.0) count(Oddity::kAlpha, [&] { return body_.place(); });
+        mesh_.geometry.colours.push_back(linear);
     }
 
     static std::optional<std::size_t> findCorners(const PlyElement& element) {
@@ -347,7 +386,9 @@ class PlyLoader {
         }
     }
 
-    static constexpr std::size_t kPosition = 0, kNormal = 3, kSlots = 6, kSkipped = kSlots;
+    /// Of the values of a vertex.
+    static constexpr std::size_t kPosition = 0, kNormal = 3, kColour = 6, kAlpha = 9, kSlots = 10,
+                                 kSkipped = kSlots;
 
     struct Found {
         std::uint64_t count = 0;

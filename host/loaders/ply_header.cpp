@@ -19,12 +19,13 @@ struct TypeName {
     std::string_view name, alternative;
     PlyType type;
     std::size_t size;
+    double unit;
 };
 constexpr TypeName kTypes[] = {
-    {"char", "int8", PlyType::kInt8, 1},      {"uchar", "uint8", PlyType::kUint8, 1},
-    {"short", "int16", PlyType::kInt16, 2},   {"ushort", "uint16", PlyType::kUint16, 2},
-    {"int", "int32", PlyType::kInt32, 4},     {"uint", "uint32", PlyType::kUint32, 4},
-    {"float", "float32", PlyType::kFloat, 4}, {"double", "float64", PlyType::kDouble, 8},
+    {"char", "int8", PlyType::kInt8, 1, 127.0},         {"uchar", "uint8", PlyType::kUint8, 1, 255.0},
+    {"short", "int16", PlyType::kInt16, 2, 32767.0},    {"ushort", "uint16", PlyType::kUint16, 2, 65535.0},
+    {"int", "int32", PlyType::kInt32, 4, 2147483647.0}, {"uint", "uint32", PlyType::kUint32, 4, 4294967295.0},
+    {"float", "float32", PlyType::kFloat, 4, 1.0},      {"double", "float64", PlyType::kDouble, 8, 1.0},
 };
 
 class HeaderReader {
@@ -58,9 +59,9 @@ class HeaderReader {
     }
 
   private:
-    /// Lines end in "\n" or "\r\n", or in "\r" if the first one does: a "\n" that follows may be data.
+    /// Lines end in "\n", "\r\n" or "\r". If the first one ends in "\r" alone, a "\n" behind that is data.
     bool nextLine() {
-        const std::size_t end = bytes_.find_first_of(endsByReturn_ ? "\r" : "\r\n", next_);
+        const std::size_t end = bytes_.find_first_of("\r\n", next_);
         // The start of a binary file of another kind may be one long line.
         constexpr std::size_t kLongest = 1 << 16;
         if (end == std::string_view::npos || end - next_ > kLongest) return false;
@@ -126,7 +127,7 @@ class HeaderReader {
     }
 
     PlyType typeOf(std::string_view word) const {
-        for (const auto& [name, alternative, type, size] : kTypes) {
+        for (const auto& [name, alternative, type, size, unit] : kTypes) {
             if (word == name || word == alternative) return type;
         }
         fail(fmt::format("unknown type {}", inQuotes(word)),
@@ -168,6 +169,10 @@ PlyHeader readPlyHeader(const std::filesystem::path& path, std::string_view byte
 
 std::size_t sizeOf(PlyType type) {
     return kTypes[static_cast<std::size_t>(type)].size;
+}
+
+double unitOf(PlyType type) {
+    return kTypes[static_cast<std::size_t>(type)].unit;
 }
 
 }  // namespace duolux

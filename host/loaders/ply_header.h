@@ -48,4 +48,7 @@ PlyHeader readPlyHeader(const std::filesystem::path& path, std::string_view byte
 /// In bytes.
 std::size_t sizeOf(PlyType type);
 
+/// The value that stands for 1 in a colour: the largest one of an integer type, 1 of the others.
+double unitOf(PlyType type);
+
 }  // namespace duolux

@@ -54,6 +54,7 @@ Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const 
 std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer& params) {
     std::vector<Binding> bindings = deviceScene.treeBindings();
     bindings.push_back({shared::kBindingNormals, &deviceScene.normals});
+    bindings.push_back({shared::kBindingColours, &deviceScene.colours});
     bindings.push_back({shared::kBindingMaterials, &deviceScene.materials});
     bindings.push_back({shared::kBindingEmitters, &deviceScene.emitterRecords});
     bindings.push_back({shared::kBindingParams, &params});
@@ -80,6 +81,7 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
                                             (scene.pointEmitters.empty() ? 0u : shared::kEmitterKindPoint)},
             {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
+            {shared::kSpecVertexColours, deviceScene.hasVertexColours},
             {shared::kSpecPlanes, deviceScene.hasPlanes},
             {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent
                                                                                  : shared::kSamplerSobol},

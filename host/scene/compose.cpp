@@ -27,6 +27,11 @@ void appendGeometry(Geometry& to, Geometry from) {
         to.normalIndices.resize(to.triangles.size(), glm::uvec3(Geometry::kNoNormal));
         from.normalIndices.resize(from.triangles.size(), glm::uvec3(Geometry::kNoNormal));
     }
+    if (!to.colours.empty() || !from.colours.empty()) {
+        to.colours.resize(to.positions.size(), glm::vec3(1.0f));
+        from.colours.resize(from.positions.size(), glm::vec3(1.0f));
+        to.colours.insert(to.colours.end(), from.colours.begin(), from.colours.end());
+    }
     to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
     to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
     to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());

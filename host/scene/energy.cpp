@@ -90,13 +90,20 @@ bool seriesMayGrow(const Scene& scene) {
     return false;
 }
 
+glm::vec3 vertexColourOf(const Geometry& geometry, std::size_t triangle) {
+    if (geometry.colours.empty()) return glm::vec3(1.0f);
+    const glm::uvec3& corners = geometry.triangles[triangle];
+    return (geometry.colours[corners.x] + geometry.colours[corners.y] + geometry.colours[corners.z]) / 3.0f;
+}
+
 glm::dvec3 meanAlbedo(const Scene& scene) {
     glm::dvec3 sum(0.0);
     double totalArea = 0.0;
     const Geometry& geometry = scene.geometry;
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
         const double area = areaOf(geometry, geometry.triangles[i]);
-        sum += area * glm::dvec3(meanAlbedo(scene.materials[geometry.materials[i]]));
+        const Material& material = scene.materials[geometry.materials[i]];
+        sum += area * glm::dvec3(meanAlbedo(material) * vertexColourOf(geometry, i));
         totalArea += area;
     }
     return sum / totalArea;

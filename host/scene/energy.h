@@ -23,6 +23,7 @@ struct MaterialEnergy {
     bool grows() const;
 };
 
+/// `albedo`: the base colour, which colours of vertices can only make smaller.
 MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo);
 
 /// Totals over the emitting triangles of a scene.
@@ -40,6 +41,9 @@ bool anySurfaceScatters(const Scene& scene);
 
 /// Whether some surface may make the terms of the series of bounces grow.
 bool seriesMayGrow(const Scene& scene);
+
+/// The mean colour of the vertices of a triangle; 1 if they have none.
+glm::vec3 vertexColourOf(const Geometry& geometry, std::size_t triangle);
 
 /// The area-weighted mean albedo of all triangles.
 glm::dvec3 meanAlbedo(const Scene& scene);

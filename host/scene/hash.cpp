@@ -77,6 +77,7 @@ std::string hashScene(const Scene& scene) {
     addArray(hasher, geometry.materials);
     addArray(hasher, geometry.normals);
     addArray(hasher, geometry.normalIndices);
+    if (!geometry.colours.empty()) addArray(hasher, geometry.colours);
     for (const auto& [position, invisible, visible] : scene.pointEmitters) {
         for (const glm::vec3& field : {position, invisible, visible})
             addTo(hasher, field);

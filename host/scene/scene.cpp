@@ -30,6 +30,7 @@ void removeLamp(Scene& scene) {
     geometry.positions.resize(scene.content.positions);
     geometry.triangles.resize(scene.content.triangles);
     geometry.materials.resize(scene.content.triangles);
+    if (!geometry.colours.empty()) geometry.colours.resize(scene.content.positions);
     if (!geometry.normalIndices.empty()) geometry.normalIndices.resize(scene.content.triangles);
     scene.materials.resize(scene.content.materials);
 }

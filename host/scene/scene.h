@@ -20,6 +20,9 @@ struct Geometry {
     std::vector<glm::uvec3>
         normalIndices;  ///< per triangle; kNoNormal in .x: flat. Empty if normals is empty
 
+    std::vector<glm::vec3>
+        colours;  ///< per position: scale the base colour, linear RGB from 0 to 1; may be empty
+
     static constexpr std::uint32_t kNoNormal = 0xffffffffu;
 };
 

@@ -6,6 +6,7 @@ layout(local_size_x_id = kSpecWorkgroupSize) in;
 layout(constant_id = kSpecLeaveTraversal) const uint kLeaveTraversal = 4u;
 layout(constant_id = kSpecLeaveNodes) const uint kLeaveNodes = 3u;
 layout(constant_id = kSpecSmoothNormals) const bool kSmoothNormals = true;
+layout(constant_id = kSpecVertexColours) const bool kVertexColours = false;
 layout(constant_id = kSpecSampler) const uint kSampler = kSamplerSobol;
 layout(constant_id = kSpecTeamSize) const uint kTeamSize = 8u;
 
@@ -13,6 +14,7 @@ layout(binding = kBindingNormals, rgba32ui) uniform readonly uimageBuffer normal
 layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer materialTexels;
 layout(binding = kBindingEmitters, rgba32ui) uniform readonly uimageBuffer emitterTexels;
 layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
+layout(binding = kBindingColours, rgba32ui) uniform readonly uimageBuffer colourTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 
@@ -22,11 +24,13 @@ layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]
 #include "shaders/lib/sampler.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
+#include "shaders/lib/vertex_colour.glsl"
 
 uvec4 fetchNormalTexel(uint index) { return imageLoad(normalTexels, int(index)); }
 uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(index)); }
 uvec4 fetchEmitterTexel(uint index) { return imageLoad(emitterTexels, int(index)); }
 uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
+uvec4 fetchColourTexel(uint index) { return imageLoad(colourTexels, int(index)); }
 
 LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
 LightMatrix sceneOpaque() { return fromDevice(params.opaque); }

@@ -16,6 +16,7 @@ SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle
     SurfaceHit hit;
     hit.materialIndex = tri.materialFlags & kMaterialMask;
     hit.material = fetchMaterial(hit.materialIndex);
+    if (kVertexColours) hit.material.bsdf.baseColor *= vertexColour(ray.triangle, ray.barycentric);
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
     hit.cosine = dot(normal, segment.direction);
     hit.front = hit.cosine < 0.0;

@@ -23,6 +23,7 @@ DUOLUX_CONST uint kBindingParams = 5u;     // uniform: PathParams
 DUOLUX_CONST uint kBindingPixels = 6u;     // texels: the indices of four pixels each, in the order of tracing
 DUOLUX_CONST uint kBindingResults = 7u;    // storage: PixelResult
 DUOLUX_CONST uint kBindingTeams = 8u;      // storage: TeamProgress, all zero before a dispatch
+DUOLUX_CONST uint kBindingColours = 12u;   // texels: DeviceColours, kSpecVertexColours only
 
 // Specialisation constants.
 DUOLUX_CONST uint kSpecWorkgroupSize = 0u;
@@ -42,6 +43,7 @@ DUOLUX_CONST uint kSpecSampler = 11u;      // one of the kSampler... below
 DUOLUX_CONST uint kSpecDirectLight = 12u;  // one of the kDirectLight... below
 DUOLUX_CONST uint kSpecHasEmitters = 13u;  // something emits
 DUOLUX_CONST uint kSpecTeamSize = 14u;     // lanes that share a range of pixels; divides the workgroup's size
+DUOLUX_CONST uint kSpecVertexColours = 23u;  // colours of vertices scale those of materials
 
 DUOLUX_CONST uint kSamplerSobol = 0u;  // Owen-scrambled Sobol points
 DUOLUX_CONST uint kSamplerIndependent = 1u;
@@ -117,6 +119,8 @@ struct PixelResult {
 
 // Records fetched as texels of 4 x uint32.
 DUOLUX_CONST uint kNormalTexels = 1u;  // three octahedral 2 x snorm16 unit vectors, one per vertex
+// Three colours, one per vertex: square roots of linear RGB, 10 bits each.
+DUOLUX_CONST uint kColourTexels = 1u;
 
 #ifdef __cplusplus
 static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(PixelResult) == 80);
@@ -128,6 +132,12 @@ struct DeviceNormals {
     uint unused;
 };
 static_assert(sizeof(DeviceNormals) == kNormalTexels * 16);
+
+struct DeviceColours {
+    uint roots[3];
+    uint unused;
+};
+static_assert(sizeof(DeviceColours) == kColourTexels * 16);
 #endif
 
 DUOLUX_END

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/base/srgb.h"
 #include "host/film/image.h"
-#include "host/film/srgb.h"
 #include "tests/cli/run_duolux.h"
 
 namespace duolux::test {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "host/base/srgb.h"
 #include "host/compare/compare.h"
 #include "host/compare/heat_map.h"
-#include "host/film/srgb.h"
 
 // Every metric against values calculated by hand.
 

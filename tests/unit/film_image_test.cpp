@@ -14,9 +14,9 @@
 #include <limits>
 
 #include "host/base/file.h"
+#include "host/base/srgb.h"
 #include "host/film/codec.h"
 #include "host/film/image.h"
-#include "host/film/srgb.h"
 #include "tests/unit/film_samples.h"
 
 namespace duolux {

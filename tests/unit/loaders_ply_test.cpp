@@ -1,10 +1,12 @@
 // PLY files. The expected bytes are written here one by one, by shifts, not by the loader's own functions.
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
@@ -177,6 +179,79 @@ TEST_F(PlyTest, NormalsAreThoseOfTheVertices) {
     EXPECT_EQ(geometry.normalIndices[1].x, Geometry::kNoNormal) << "one of its corners has no direction";
     EXPECT_THAT(warningsOf(header("ascii", elements) + body),
                 ElementsAre(HasSubstr("(vertex 4 of 4): a normal that is 0 or not finite: the faces")));
+}
+
+/// A triangle whose vertices have further properties of one type.
+std::string withProperties(const std::string& type, const std::vector<std::string>& names,
+                           const std::array<std::string, 3>& values) {
+    std::string elements = "element vertex 3\n" + kCoordinates;
+    for (const std::string& name : names)
+        elements += "property " + type + " " + name + "\n";
+    return header("ascii", elements + "element face 1\nproperty list uchar int vertex_indices\n") + "0 0 0 " +
+           values[0] + "\n1 0 0 " + values[1] + "\n0 1 0 " + values[2] + "\n3 0 1 2\n";
+}
+
+TEST_F(PlyTest, ColoursAreEncodedBySrgb) {
+    // Values of the sRGB transfer function from tables.
+    const glm::vec3 first(1.0f, 0.0f, 0.2140411f), second(0.0003035f, 0.0508761f, 0.6038274f);
+    const std::array<std::string, 3> bytes{"255 0 127.5", "1 63.75 204", "0 0 0"};
+    const std::array<std::string, 3> reals{"1 0 0.5", "0.00392157 0.25 0.8", "0 0 0"};
+    const std::array<std::string, 3> words{"65535 0 32767.5", "257 16383.75 52428", "0 0 0"};
+    for (const auto& [type, values] :
+         {std::pair("uchar", bytes), std::pair("float", reals), std::pair("uint16", words)}) {
+        const Mesh read = mesh(withProperties(type, {"red", "green", "blue"}, values));
+        ASSERT_EQ(read.geometry.colours.size(), 3u) << type;
+        EXPECT_THAT(read.geometry.colours[0], IsNear(first, 1e-6f)) << type;
+        EXPECT_THAT(read.geometry.colours[1], IsNear(second, 1e-6f)) << type;
+        EXPECT_EQ(read.geometry.colours[2], glm::vec3(0.0f));
+        EXPECT_EQ(read.materials[0].baseColor, glm::vec3(1.0f));
+        EXPECT_THAT(read.warnings, IsEmpty());
+    }
+    const std::array<std::string, 3> one{"0 0 255", "0 0 0", "0 0 0"};
+    EXPECT_EQ(mesh(withProperties("uchar", {"diffuse_red", "diffuse_green", "diffuse_blue"}, one))
+                  .geometry.colours[0],
+              glm::vec3(0, 0, 1));
+    EXPECT_EQ(mesh(withProperties("uchar", {"b", "g", "r"}, one)).geometry.colours[0], glm::vec3(1, 0, 0));
+}
+
+TEST_F(PlyTest, ColoursThatAreNoneAreWarnings) {
+    const auto warnings = [&](const std::vector<std::string>& names,
+                              const std::array<std::string, 3>& values) {
+        return warningsOf(withProperties("float", names, values));
+    };
+    EXPECT_THAT(
+        warnings({"red", "green", "blue"}, {"1.5 0 0", "0 nan 0", "1 -1 0"}),
+        ElementsAre(
+            "mesh.ply: line 13 (vertex 1 of 3): a colour that is not between 0 and 1 (and 2 more): clamped"));
+    EXPECT_THAT(
+        warnings({"red", "green", "blue", "alpha"}, {"0 0 0 1", "0 0 0 0.5", "0 0 0 1"}),
+        ElementsAre("mesh.ply: line 15 (vertex 2 of 3): a vertex that is not opaque: alpha is ignored"));
+    EXPECT_THAT(warnings({"red", "green"}, {"0 0", "0 0", "0 0"}),
+                ElementsAre("mesh.ply: not supported and ignored: red of vertex, green of vertex"));
+    const Geometry clamped =
+        mesh(withProperties("float", {"red", "green", "blue"}, {"1.5 0 0", "0 nan 0", "1 -1 0"})).geometry;
+    EXPECT_THAT(clamped.colours, ElementsAre(glm::vec3(1, 0, 0), glm::vec3(0), glm::vec3(1, 0, 0)));
+}
+
+TEST_F(PlyTest, ColoursStayWithTheirVertices) {
+    write("red.ply", withProperties("uchar", {"red", "green", "blue"}, {"255 0 0", "255 0 0", "255 0 0"}));
+    write("grey.obj", kTriangleObj);
+    const std::string red = R"({"mesh": "red.ply"})", grey = R"({"mesh": "grey.obj"})";
+    for (const std::string& objects : {red + ", " + grey, grey + ", " + red + ", " + red}) {
+        const Scene scene = loadJson(R"({"duolux": 1, "objects": [)" + objects + "]}");
+        const Geometry& geometry = scene.geometry;
+        ASSERT_EQ(geometry.colours.size(), geometry.positions.size()) << "the added lamp has colours, too";
+        for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+            const bool isRed =
+                i < scene.content.triangles && scene.materials[geometry.materials[i]].baseColor.x == 1.0f;
+            for (int k = 0; k < 3; ++k)
+                EXPECT_EQ(geometry.colours[geometry.triangles[i][k]],
+                          isRed ? glm::vec3(1, 0, 0) : glm::vec3(1));
+        }
+        Scene without = scene;
+        removeLamp(without);
+        EXPECT_EQ(without.geometry.colours.size(), without.geometry.positions.size());
+    }
 }
 
 TEST_F(PlyTest, OtherElementsAndTheirOrderDoNotMatter) {

@@ -35,7 +35,7 @@ glm::vec<sizeof...(Components), T> operator->*(const glm::vec<N, T>& v, Swizzle<
 /// The contents of the kernels' texel buffers. The library reads a scene only through the functions that
 /// fetch from them.
 struct Texels {
-    std::vector<glm::uvec4> nodes, pairs, planes, normals, materials, emitters;
+    std::vector<glm::uvec4> nodes, pairs, planes, normals, colours, materials, emitters;
 };
 inline Texels& texels() {
     static Texels instance;

@@ -1,4 +1,4 @@
-#include "host/film/srgb.h"
+#include "host/base/srgb.h"
 
 #include <array>
 #include <cmath>

@@ -1,0 +1,23 @@
+// Colours of vertices, which scale the base colour of a surface. The kernel that includes this defines
+// fetchColourTexel.
+#ifndef DUOLUX_LIB_VERTEX_COLOUR_GLSL
+#define DUOLUX_LIB_VERTEX_COLOUR_GLSL
+
+#include "shaders/shared/path_layout.h"
+
+uvec4 fetchColourTexel(uint index);
+
+// Linear RGB from the square roots of the channels, 10 bits each.
+vec3 decodeColour(uint bits) {
+    vec3 root = vec3(uvec3(bits, bits >> 10u, bits >> 20u) & 1023u) * (1.0 / 1023.0);
+    return root * root;
+}
+
+// The interpolated vertex colour at a point of a triangle: linear RGB, 0 to 1.
+vec3 vertexColour(uint triangle, vec2 barycentric) {
+    uvec4 texel = fetchColourTexel(triangle * kColourTexels);
+    return decodeColour(texel.x) * (1.0 - barycentric.x - barycentric.y) + decodeColour(texel.y) * barycentric.x +
+           decodeColour(texel.z) * barycentric.y;
+}
+
+#endif

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "host/render/render.h"
+#include "host/scene/image_plane.h"
+#include "tests/support/device.h"
+#include "tests/support/scene_builder.h"
+#include "tests/support/tunings.h"
+
+// Colours of vertices scale the light that a surface scatters, by an amount that is known at every point.
+
+namespace duolux::test {
+namespace {
+
+/// Linear in x and z, so that interpolation over any triangles of the floor reproduces it.
+glm::dvec3 colourAt(const glm::dvec3& p) {
+    return {0.5 + 0.4 * p.x, 0.5 - 0.3 * p.z, 0.3 + 0.1 * p.x + 0.15 * p.z};
+}
+
+/// A floor from -1 to 1 of `white` or of colours, under a large lamp out of view.
+Scene floorScene(bool coloured) {
+    SceneBuilder builder;
+    Material white;
+    white.baseColor = glm::vec3(1.0f);
+    const std::uint32_t material = builder.add(white);
+    // Neighbours share vertices and form pairs, whose shared edges are at different places of their
+    // triangles.
+    Geometry& geometry = builder.scene.geometry;
+    geometry.positions = {{-1, 0, 1}, {0.2f, 0, 1}, {0.2f, 0, -1}, {-1, 0, -1}, {1, 0, -1}, {1, 0, 1}};
+    geometry.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 2, 1}, {1, 5, 4}};
+    geometry.materials.assign(geometry.triangles.size(), material);
+    Scene& scene = builder.scene;
+    if (coloured) {
+        for (const glm::vec3& position : scene.geometry.positions)
+            scene.geometry.colours.emplace_back(colourAt(glm::dvec3(position)));
+    }
+    Material lamp;
+    lamp.baseColor = glm::vec3(0.0f);
+    lamp.emission.invisible = glm::vec3(10.0f);
+    builder.quad({-4, 3, -4}, {4, 3, -4}, {4, 3, 4}, {-4, 3, 4}, builder.add(lamp));
+    scene.geometry.colours.resize(coloured ? scene.geometry.positions.size() : 0, glm::vec3(1.0f));
+    scene.reflectance = preset("global");
+    scene.camera.position = {0, 2, 0};
+    scene.camera.target = {0, 0, 0};
+    scene.camera.up = {0, 0, -1};
+    scene.camera.vfov = 45.0f;
+    scene.render.width = scene.render.height = 24;
+    scene.render.spp = 64;
+    scene.render.bounces = 1;
+    return scene;
+}
+
+void expectColours(Integrator integrator, const TuningChoice& tuning) {
+    Scene white = floorScene(false), coloured = floorScene(true);
+    RenderControl control;
+    control.tuning = tuning;
+    white.render.integrator = coloured.render.integrator = integrator;
+    // A small part of the particles reaches a pixel, and none may be without.
+    if (integrator == Integrator::kLight) white.render.spp = coloured.render.spp = 2048;
+    const std::vector<glm::vec3> expected = render(device(), white, control).film.resolve().visible;
+    const std::vector<glm::vec3> actual = render(device(), coloured, control).film.resolve().visible;
+    const ImagePlane plane = imagePlane(white.camera, white.render.width, white.render.height);
+    for (std::uint32_t y = 0; y < white.render.height; ++y) {
+        for (std::uint32_t x = 0; x < white.render.width; ++x) {
+            const glm::vec2 point(
+                2.0f * (static_cast<float>(x) + 0.5f) / static_cast<float>(white.render.width) - 1.0f,
+                1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / static_cast<float>(white.render.height));
+            const std::size_t pixel = std::size_t{y} * white.render.width + x;
+            const CameraRay ray = cameraRay(white.camera, plane, point);
+            const glm::dvec3 p =
+                glm::dvec3(ray.origin) -
+                glm::dvec3(ray.direction) * static_cast<double>(ray.origin.y / ray.direction.y);
+            const glm::dvec3 ratio = glm::dvec3(actual[pixel]) / glm::dvec3(expected[pixel]);
+            // All samples of a pixel are within half its width, 0.0345, of its centre, and a colour is stored
+            // in steps of at most 0.002.
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(ratio[c], colourAt(p)[c], 0.016)
+                    << nameOf(integrator) << " " << x << " " << y << " " << c;
+        }
+    }
+}
+
+TEST(VertexColours, ScaleTheLightOfPathsFromTheCamera) {
+    for (const TuningChoice& tuning : allTunings(device().info()))
+        expectColours(Integrator::kPath, tuning);
+}
+
+TEST(VertexColours, ScaleTheLightOfLightPaths) {
+    expectColours(Integrator::kLight, {});
+}
+
+}  // namespace
+}  // namespace duolux::test
