@@ -10,7 +10,6 @@
 
 #include "host/app/info_json.h"
 #include "host/view/darkness.h"
-#include "host/view/emitter_sides.h"
 
 namespace duolux {
 
@@ -145,9 +144,9 @@ std::string exposureWarning(const Scene& scene, const ImageRows& rows, float exp
                fmt::format("all of it is very dark; try --exposure {:.0f}", std::ceil(-1.0f - *bright));
     }
     const DarkReason reason = whyDark(scene);
-    const bool said = std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const std::string& w) {
-        return (reason.darkness == Darkness::kNothingEmits && w.ends_with(": the picture will be black")) ||
-               (reason.darkness == Darkness::kFacingAway && w.find(kFaceAway) != std::string::npos);
+    const bool said = std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const Warning& warning) {
+        return (reason.darkness == Darkness::kNothingEmits && warning.kind == WarningKind::kBlackPicture) ||
+               (reason.darkness == Darkness::kFacingAway && warning.kind == WarningKind::kEmittersFaceAway);
     });
     if (said) return {};
     return dark + describe(scene, reason);

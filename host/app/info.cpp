@@ -170,8 +170,8 @@ void printInfo(const Scene& scene, const nlohmann::ordered_json& lamp) {
     printMaterials(scene);
     printEnergy(scene);
     if (!scene.warnings.empty()) fmt::print("\n");
-    for (const std::string& warning : scene.warnings)
-        printField("warning", warning);
+    for (const Warning& warning : scene.warnings)
+        printField("warning", warning.text);
 }
 
 }  // namespace

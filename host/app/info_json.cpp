@@ -189,7 +189,7 @@ Json infoJson(const Scene& scene, const Json& lamp) {
                       {"material", largest.material},
                       {"channel", largest.channel},
                       {"may_grow", largest.mayGrow}};
-    info["warnings"] = scene.warnings;
+    info["warnings"] = textsOf(scene.warnings);
     return info;
 }
 

@@ -23,8 +23,11 @@
 #include "host/app/signals.h"
 #include "host/base/error.h"
 #include "host/base/file.h"
+#include "host/base/printable.h"
+#include "host/gpu/transport.h"
 #include "host/loaders/scene_file.h"
 #include "host/view/load.h"
+#include "shaders/shared/material_layout.h"
 
 namespace duolux {
 
@@ -232,6 +235,19 @@ void requireNoOtherFile(const std::string& checkpoint) {
                     checkpoint));
 }
 
+void warnOfMirrors(Scene& scene) {
+    const std::vector<bool> used = usedMaterials(scene);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (!used[i] || !isMirror(scene.materials[i])) continue;
+        scene.warnings.emplace_back(fmt::format(
+            "{}: material {}: light paths do not show what a mirror reflects; expected a roughness of at "
+            "least {:.3f}, "
+            "or --integrator path",
+            scene.source.string(), inQuotes(scene.materials[i].name), std::sqrt(shared::kSmoothAlpha)));
+        return;
+    }
+}
+
 void runRender(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     requireScenePath(options.scene);
@@ -256,8 +272,9 @@ void runRender(const RenderOptions& options) {
     requireNoOtherFile(options.checkpoint);
     overrides.applyTo(scene, options);
     requireUseOfLayers(options, outputs, scene);
-    for (const std::string& warning : scene.warnings)
-        warn(warning);
+    if (scene.render.integrator == Integrator::kLight) warnOfMirrors(scene);
+    for (const Warning& warning : scene.warnings)
+        warn(warning.text);
     RenderControl control;
     control.timeLimit = options.timeLimit;
     control.tuning = options.tuning.choice();
@@ -311,7 +328,7 @@ void runRender(const RenderOptions& options) {
     }
     for (const std::string& warning : warnings) {
         warn(warning);
-        scene.warnings.push_back(warning);
+        scene.warnings.emplace_back(warning);
     }
     if (failure) scene.warnings.emplace_back(failure->what());
     const Clock::time_point writeStart = Clock::now();

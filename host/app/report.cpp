@@ -79,7 +79,7 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                           {"previous_bounce", statistics.previousBounceRadiance},
                           {"cut_off_by_bounces", statistics.cutOffByBounces()}};
     report["peak_bytes"] = {{"host", peakHostBytes()}, {"device", statistics.deviceBytes}};
-    report["warnings"] = scene.warnings;
+    report["warnings"] = textsOf(scene.warnings);
     return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -71,8 +71,8 @@ void run(const Arguments& arguments) {
     const Clock::time_point start = Clock::now();
     Scene scene = loadScene(arguments.scene);
     checkNotRead(files, scene.files);
-    for (const std::string& warning : scene.warnings)
-        say(fmt::format("duolux-gl: warning: {}", warning));
+    for (const Warning& warning : scene.warnings)
+        say(fmt::format("duolux-gl: warning: {}", warning.text));
     if (!arguments.size.empty()) {
         const glm::uvec2 size = parseSize(arguments.size);
         scene.render.width = size.x;

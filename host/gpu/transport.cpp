@@ -33,6 +33,10 @@ std::vector<bool> usedMaterials(const Scene& scene) {
     return used;
 }
 
+bool isMirror(const Material& material) {
+    return material.metallic > 0.0f && material.roughness * material.roughness < shared::kSmoothAlpha;
+}
+
 TransportTraits analyseTransport(const Scene& scene) {
     const std::vector<bool> used = usedMaterials(scene);
     TransportTraits traits;

@@ -121,7 +121,7 @@ void Composer::append(Mesh mesh) {
     scene_.meshBytes += mesh.bytes;
     scene_.files.insert(scene_.files.end(), mesh.files.begin(), mesh.files.end());
     for (std::string& warning : mesh.warnings)
-        scene_.warnings.push_back(std::move(warning));
+        scene_.warnings.emplace_back(std::move(warning));
 }
 
 void Composer::append(const Rectangle& rectangle, const Material& material) {

@@ -14,9 +14,10 @@
 
 namespace duolux {
 
-/// Object to world. Normals go by the inverse transpose; a mirroring transform turns the winding so that
-/// fronts stay fronts. The upper left 3x3 must be regular. Returns false if a coordinate exceeds
-/// kLargestCoordinate. `roundingError`: how far rounding moves a position at most.
+/// Transforms from object to world. Normals are transformed by the inverse transpose. A mirroring transform
+/// reverses the winding, so that fronts remain fronts. The upper left 3x3 must be regular. Returns false if a
+/// coordinate exceeds kLargestCoordinate. `roundingError`: the largest distance by which rounding moves a
+/// position.
 bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* roundingError = nullptr);
 
 /// Places a mesh, in the coordinates of its file, in a scene of the given origin, which becomes the mesh's.
@@ -24,7 +25,7 @@ bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* 
 bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneOrigin,
                double* roundingError = nullptr);
 
-/// Determinant far from 0, measured by the lengths of the columns.
+/// Whether the determinant is far from 0 relative to the lengths of the columns.
 bool isRegular(const glm::dmat3& matrix);
 
 /// A parallelogram whose front is the side that edge1 x edge2 points to.
@@ -32,7 +33,7 @@ struct Rectangle {
     glm::vec3 origin, edge1, edge2;
 };
 
-/// Puts a scene together, in time proportional to what is added.
+/// Adds meshes to a scene, in time proportional to their size.
 class Composer {
   public:
     explicit Composer(Scene& scene);
@@ -45,7 +46,7 @@ class Composer {
     /// Adds two triangles (none if they have no area).
     void append(const Rectangle& rectangle, const Material& material);
 
-    /// Warns of the triangles that were left out, once a mesh file.
+    /// Adds a warning for each mesh file of which triangles were left out.
     void finish();
 
   private:
@@ -64,11 +65,10 @@ class Composer {
 void appendMesh(Scene& scene, Mesh mesh);
 void appendRectangle(Scene& scene, const Rectangle& rectangle, const Material& material);
 
-/// Sets what is taken off all coordinates of a scene, and warns if it is not 0.
+/// Sets the origin that is subtracted from all coordinates of a scene, and warns if it is not 0.
 void setOrigin(Scene& scene, const glm::dvec3& origin);
 
-/// Takes out triangles without area: those too thin for single precision to tell which way they face.
-/// Returns how many.
+/// Removes triangles without area: those too thin to have a normal in single precision. Returns their number.
 std::size_t dropDegenerateTriangles(Geometry& geometry);
 
 }  // namespace duolux

@@ -7,7 +7,7 @@
 
 namespace duolux {
 
-/// 16 hexadecimal digits over everything that the image depends on but RenderSettings.
+/// 16 hexadecimal digits over everything that the image depends on, except RenderSettings.
 std::string hashScene(const Scene& scene);
 
 void addTo(Hasher& hasher, const glm::vec3& value);
@@ -16,7 +16,7 @@ void addTo(Hasher& hasher, const Sides& value);
 void addTo(Hasher& hasher, const Reflectance& value);
 void addTo(Hasher& hasher, const Emission& value);
 
-/// By all its fields, name included: equal materials have equal hashes.
+/// Hashes all fields including the name: equal materials have equal hashes.
 struct MaterialHash {
     std::size_t operator()(const Material& material) const;
 };

@@ -19,7 +19,7 @@ struct Mesh {
     std::vector<Material> materials;           ///< used by faces
     std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face uses
     std::vector<std::string> warnings;
-    std::uint64_t bytes = 0;  ///< of the text
+    std::uint64_t bytes = 0;  ///< size of the file
 };
 
 /// Name of the material of faces that come before any `usemtl`.

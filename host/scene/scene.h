@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/scene/material.h"
+#include "host/scene/warning.h"
 
 namespace duolux {
 
@@ -75,7 +76,7 @@ struct PointEmitter {
 struct Scene {
     std::filesystem::path source;              ///< the file that was loaded
     std::vector<std::filesystem::path> files;  ///< all that were read
-    std::string hash;  ///< 16 hex digits over everything the image depends on but RenderSettings
+    std::string hash;  ///< 16 hex digits over everything the image depends on, except RenderSettings
     Camera camera;
     RenderSettings render;
     glm::vec2 display{0.0f, 1.0f};  ///< the row d of eq. 8; the displayed radiance is d . L
@@ -83,26 +84,25 @@ struct Scene {
     std::vector<Material> materials;
     Geometry geometry;
     std::vector<PointEmitter> pointEmitters;
-    /// What was taken off the coordinates of the file, in which `camera` and `geometry` would lose precision
-    /// as floats; 0 unless the scene is far from the origin for its extent.
+    /// Is subtracted from the file's coordinates, so that `camera` and `geometry` keep their precision as
+    /// floats; 0 unless the scene is far from the origin for its extent.
     glm::dvec3 origin{0.0};
-    /// How much of geometry and materials the files hold; a lamp that was added comes behind.
+    /// The numbers of items that come from the files; those of an added lamp follow them.
     struct Content {
         std::size_t positions = 0, triangles = 0, materials = 0;
     } content;
-    std::uint64_t meshBytes = 0;  ///< of text in the mesh files that were read
-    std::vector<std::string>
-        warnings;  ///< for the user: default light used, missing MTL, degenerate triangles ...
+    std::uint64_t meshBytes = 0;    ///< size of the mesh files that were read
+    std::vector<Warning> warnings;  ///< default light used, missing MTL, degenerate triangles ...
 
     const Reflectance& reflectanceOf(const Material& material) const {
         return material.reflectance ? *material.reflectance : reflectance;
     }
 };
 
-/// Notes that there is no more in the scene than its files hold.
+/// Sets Scene::content: everything in the scene comes from its files.
 void noteContent(Scene& scene);
 
-/// Takes out what was added behind that.
+/// Removes everything that was added after noteContent.
 void removeLamp(Scene& scene);
 
 /// Axis-aligned bounds of all referenced vertices.

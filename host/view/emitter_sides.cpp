@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "host/base/printable.h"
 #include "host/view/look_through.h"
@@ -65,7 +66,7 @@ void judge(const Surface& surface, Emitters& emitters) {
 
 }  // namespace
 
-std::vector<std::string> emitterWarnings(const Surface& surface, const Camera& camera) {
+std::vector<Warning> emitterWarnings(const Surface& surface, const Camera& camera) {
     std::map<std::uint32_t, Emitters> all;  // by material
     for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
         if (!emitsFromItsFront(surface.materialOf(i))) continue;
@@ -79,19 +80,23 @@ std::vector<std::string> emitterWarnings(const Surface& surface, const Camera& c
                     if (emitters == all.end()) return;
                     ++(point.front ? emitters->second.fronts : emitters->second.backs);
                 });
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
     for (auto& [material, emitters] : all) {
         judge(surface, emitters);
         const bool away = emitters.away > 0.25 * emitters.area;
         const bool onlyBacks = emitters.backs > 0 && emitters.fronts == 0;
         if (!away && !(onlyBacks && emitters.evenly > 0.5 * emitters.area)) continue;
         std::string what = "show the camera only their back sides";
-        if (away) what = fmt::format("{}{}", emitters.away > 0.9 * emitters.area ? "" : "partly ", kFaceAway);
-        warnings.push_back(fmt::format(
+        if (away) {
+            what = fmt::format("{}face away from what they could light",
+                               emitters.away > 0.9 * emitters.area ? "" : "partly ");
+        }
+        std::string text = fmt::format(
             "emitters (material {}) {}: they emit only from their front sides, on which the corners are "
             "counter-clockwise; turn them, or use \"sides\": \"both\" in the emission of a JSON "
             "scene",
-            inQuotes(surface.scene().materials[material].name), what));
+            inQuotes(surface.scene().materials[material].name), what);
+        warnings.emplace_back(std::move(text), away ? WarningKind::kEmittersFaceAway : WarningKind::kOther);
     }
     return warnings;
 }

@@ -1,18 +1,14 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "host/view/surface.h"
 
 namespace duolux {
 
-/// Words of the warning about emitters that face away.
-inline constexpr const char* kFaceAway = "face away from what they could light";
-
 /// Warnings about emitters that emit only from their front sides: those whose back sides could light much
 /// more than their front sides do, and those whose back sides alone are in view, unless their front sides
 /// light more. One for each material.
-std::vector<std::string> emitterWarnings(const Surface& surface, const Camera& camera);
+std::vector<Warning> emitterWarnings(const Surface& surface, const Camera& camera);
 
 }  // namespace duolux

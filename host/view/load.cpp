@@ -21,15 +21,16 @@ namespace duolux {
 namespace {
 
 /// The warning for a scene without emitters.
-std::string whyBlack(const Scene& scene) {
-    return fmt::format("{}: the picture will be black",
-                       anySurfaceScatters(scene)
-                           ? "nothing emits light"
-                           : "all surfaces are black: they neither reflect nor emit light");
+Warning blackPicture(const Scene& scene) {
+    std::string text = fmt::format("{}: the picture will be black",
+                                   anySurfaceScatters(scene)
+                                       ? "nothing emits light"
+                                       : "all surfaces are black: they neither reflect nor emit light");
+    return {std::move(text), WarningKind::kBlackPicture};
 }
 
 void warnOfEmitters(Scene& scene, const Surface& surface) {
-    for (std::string& warning : emitterWarnings(surface, scene.camera))
+    for (Warning& warning : emitterWarnings(surface, scene.camera))
         scene.warnings.push_back(std::move(warning));
 }
 
@@ -102,7 +103,7 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
                             (choices.lamp == Lamp::kIfDark && !read.hasLights && anySurfaceScatters(scene));
     if (camera.complete() && !mayAddLamp) {
         scene.camera = completeCamera(camera);
-        if (!emits) scene.warnings.push_back(whyBlack(scene));
+        if (!emits) scene.warnings.push_back(blackPicture(scene));
         if (emits) warnOfEmitters(scene, Surface(scene, read.framedTriangles));
         return;
     }
@@ -112,7 +113,7 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
     if (choices.lamp == Lamp::kAlways) {
         view.addLamp();
     } else if (!mayAddLamp) {
-        if (!emits) scene.warnings.push_back(whyBlack(scene));
+        if (!emits) scene.warnings.push_back(blackPicture(scene));
     } else if (!emits) {
         view.addLamp();
         scene.warnings.push_back(fmt::format("nothing emits light: {}", out));
@@ -145,8 +146,8 @@ Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
     chooseBounces(scene, read, choices);
     noteContent(scene);
     chooseView(scene, read, choices);
-    for (std::string& warning : scene.warnings)
-        warning = asMessage(warning);
+    for (Warning& warning : scene.warnings)
+        warning.text = asMessage(warning.text);
     scene.hash = hashScene(scene);
     return scene;
 }

@@ -15,6 +15,9 @@ DUOLUX_CONST uint kSpecLobes = 21u;
 DUOLUX_CONST uint kLobeDiffuse = 1u;
 DUOLUX_CONST uint kLobeConductor = 2u;
 
+// Metals whose GGX alpha (the square of the roughness) is below this are mirrors.
+DUOLUX_CONST float kSmoothAlpha = 1e-3f;
+
 #ifdef __cplusplus
 struct DeviceMaterial {
     vec3 baseColor;

@@ -56,7 +56,7 @@ for ((round = 0; round < kRounds; round++)); do
     read -r layout kernel <<<"$combination"
     if measure "$layout" "$kernel" "$@"; then
       there+=("$combination")
-    elif grep -qE '^duolux: --(layout|kernel)' "$folder/error"; then
+    elif grep -qE '^duolux: (layout|kernel) ' "$folder/error"; then
       echo "layouts.sh: left out $layout, $kernel: $(cat "$folder/error")" >&2
     else
       cat "$folder/error" >&2

@@ -161,6 +161,26 @@ TEST_F(RenderCommand, ReportOfLightPaths) {
     EXPECT_THAT(metadata, HasSubstr("integrator"));
 }
 
+// Light paths cannot be connected to the camera from a mirror, so that its reflections would be missing
+// silently.
+TEST_F(RenderCommand, SaysThatLightPathsDoNotShowMirrors) {
+    const auto sceneWith = [&](const char* roughness) {
+        const std::filesystem::path scene = folder_.path() / "scene.json";
+        std::ofstream(scene)
+            << R"({"duolux": 1, "objects": [{"mesh": ")" DUOLUX_ASSETS
+               R"(/cornell/cornell.obj"}], "materials": {"white": {"metallic": 1, "roughness": )"
+            << roughness << "}}}";
+        return scene.string();
+    };
+    const std::string warning = "material \"white\": light paths do not show what a mirror reflects";
+    const std::vector<std::string> small{"--size", "4x4", "--spp", "1", "-o", "a.png"};
+    std::vector<std::string> byLight = small;
+    byLight.insert(byLight.end(), {"--integrator", "light"});
+    EXPECT_THAT(render(byLight, sceneWith("0.02")).err, HasSubstr(warning));
+    EXPECT_THAT(render(byLight, sceneWith("0.05")).err, Not(HasSubstr(warning)));
+    EXPECT_THAT(render(small, sceneWith("0.02")).err, Not(HasSubstr(warning)));
+}
+
 TEST_F(RenderCommand, LocalSendsNoShadowRays) {
     const ProgramResult result =
         render({"--preset", "local", "--size", "16x16", "--spp", "2", "--report", "-", "-o", "a.png"});

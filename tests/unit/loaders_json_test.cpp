@@ -44,7 +44,7 @@ TEST_F(JsonTest, Defaults) {
     EXPECT_EQ(scene.display, glm::vec2(0, 1));
     EXPECT_EQ(scene.reflectance, presetReflectance("global"));
     EXPECT_EQ(scene.geometry.triangles.size(), 2u);
-    EXPECT_THAT(scene.warnings, IsEmpty());
+    EXPECT_THAT(textsOf(scene.warnings), IsEmpty());
 }
 
 TEST_F(JsonTest, EveryKey) {
@@ -336,7 +336,9 @@ TEST_F(JsonTest, StatedLimitsAreAccepted) {
 TEST_F(JsonTest, LightsAreChecked) {
     const auto error = [&](const std::string& light) { return errorWith("\"lights\": [" + light + "]"); };
     EXPECT_THAT(error(R"({"type": "sphere"})"),
-                HasSubstr("lights[0].type: is \"sphere\"; expected one of \"rectangle\""));
+                HasSubstr("lights[0].type: is \"sphere\"; expected one of \"point\", \"rectangle\""));
+    EXPECT_THAT(error(R"({"type": "point", "emission": {}})"),
+                HasSubstr("lights[0]: \"position\" is missing"));
     EXPECT_THAT(error(R"({"type": "rectangle", "origin": [0,0,0]})"),
                 HasSubstr("lights[0]: \"edge1\" is missing"));
     EXPECT_THAT(

@@ -18,7 +18,7 @@ class LenientTest : public SceneFiles {
   protected:
     /// Of a square, 1 2 3 4, and more statements; without that of the default light.
     std::vector<std::string> warningsOf(const std::string& more) const {
-        return withoutLight(loadObj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + more).warnings);
+        return withoutLight(textsOf(loadObj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + more).warnings));
     }
 
     std::vector<std::string> withoutLight(std::vector<std::string> warnings) const {
@@ -70,7 +70,7 @@ TEST_F(LenientTest, CornersMayEndInASlash) {
     for (const char* face : {"f 1/ 2/ 3/", "f 1// 2// 3//", "vt 0 0\nf 1/1/ 2/1/ 3/1/"}) {
         const Scene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(face));
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2));
-        EXPECT_THAT(scene.warnings[0],
+        EXPECT_THAT(scene.warnings[0].text,
                     HasSubstr("a corner that ends in \"/\" (and 2 more): read without it"));
     }
 }
@@ -82,7 +82,7 @@ TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
         const Scene scene = loadObj(head + "f " + face + "\n");
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
         EXPECT_THAT(
-            withoutLight(scene.warnings),
+            withoutLight(textsOf(scene.warnings)),
             ElementsAre("mesh.obj: line 6: a corner with more than v/vt/vn, as in 1.0 or 1/1/1/1 (and 2 "
                         "more): the rest is ignored"))
             << face;
@@ -95,7 +95,7 @@ TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
           "1 \\ \n2 \\\t\r\n3", "1 2 3 \\", "1 2 3\\"}) {
         const Scene scene = loadObj(head + "f " + face);
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
-        EXPECT_THAT(withoutLight(scene.warnings), IsEmpty()) << face;
+        EXPECT_THAT(withoutLight(textsOf(scene.warnings)), IsEmpty()) << face;
     }
 }
 
@@ -107,7 +107,7 @@ TEST_F(LenientTest, FacesWithoutTheirVerticesAreLeftOut) {
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "b");
     EXPECT_EQ(scene.geometry.normalIndices[0], glm::uvec3(0, 0, 0));
     EXPECT_THAT(
-        withoutLight(scene.warnings),
+        withoutLight(textsOf(scene.warnings)),
         Contains(
             "mesh.obj: line 6: a face with a vertex index that is 0, out of range or not a number (and 2 "
             "more): left out"));
@@ -138,7 +138,7 @@ TEST_F(LenientTest, AnEmptyMaterialSlotIsDefaultGrey) {
         loadObj("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl \nf 1 2 3\n");
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "red");
     EXPECT_EQ(scene.materials[scene.geometry.materials[1]].name, "default");
-    EXPECT_THAT(withoutLight(scene.warnings),
+    EXPECT_THAT(withoutLight(textsOf(scene.warnings)),
                 ElementsAre("mesh.obj: line 7: usemtl without a name: its faces are grey 0.8"));
 }
 
@@ -154,7 +154,7 @@ TEST_F(LenientTest, SmoothingByWords) {
 TEST_F(LenientTest, VerticesThatNoFaceUsesMayBeAnything) {
     const Scene scene =
         loadObj("v 0 0 0\nv 1 0 0\nv nan 0 0\nv 0 1 0\nv 1e300 0 0\nv -1.#IND 0 0\nf 1 2 4\n");
-    EXPECT_THAT(withoutLight(scene.warnings),
+    EXPECT_THAT(withoutLight(textsOf(scene.warnings)),
                 ElementsAre("mesh.obj: line 3: a vertex that is not three finite numbers, or too large (and "
                             "2 more): no face uses it"));
     for (const glm::vec3& position : scene.geometry.positions)
@@ -191,7 +191,7 @@ TEST_F(LenientTest, WeightsOfVerticesAreNotUsed) {
 
 TEST_F(LenientTest, VertexColoursAreNamedOnce) {
     EXPECT_THAT(
-        withoutLight(loadObj("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0.5 0\nf 1 2 3\n").warnings),
+        withoutLight(textsOf(loadObj("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0.5 0\nf 1 2 3\n").warnings)),
         ElementsAre("mesh.obj: line 1: a vertex with a colour (and 2 more): vertex colours are not used"));
 }
 
@@ -215,7 +215,7 @@ TEST_F(LenientTest, LibrariesAreFoundAsTheyWereMeant) {
 TEST_F(LenientTest, MissingLibrariesSuggestTheOneBeside) {
     write("cornell_box.mtl", "newmtl red\nKd 1 0 0\n");
     const auto warning = [&](const char* lines) {
-        return withoutLight(loadObj(std::string(lines) + std::string(kTriangleObj)).warnings).at(0);
+        return withoutLight(textsOf(loadObj(std::string(lines) + std::string(kTriangleObj)).warnings)).at(0);
     };
     EXPECT_EQ(warning("mtllib cornellbox.mtl\n"),
               "cornellbox.mtl: no such file: its materials are grey; did you mean \"cornell_box.mtl\"?");
@@ -257,7 +257,7 @@ TEST_F(LenientTest, FilesOfAnotherKindAreCalledWhatTheyAre) {
     EXPECT_EQ(kindOf(std::string("v\0 \0001\0 \0002\0", 10)), "mesh.obj: is UTF-16 text");
     EXPECT_EQ(kindOf(std::string("\0v\0 \0001\0 \0002", 10)), "mesh.obj: is UTF-16 text");
     write("m.mtl", lfs);
-    EXPECT_THAT(withoutLight(loadObj("mtllib m.mtl\n" + std::string(kTriangleObj)).warnings),
+    EXPECT_THAT(withoutLight(textsOf(loadObj("mtllib m.mtl\n" + std::string(kTriangleObj)).warnings)),
                 ElementsAre(HasSubstr("m.mtl: is a Git LFS pointer; ")));
 }
 

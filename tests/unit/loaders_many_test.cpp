@@ -52,7 +52,7 @@ TEST_F(ManyTest, ObjectsOfOneMeshWarnOnce) {
     EXPECT_EQ(scene.geometry.triangles.size(), kMany + 1u + 2u);
     EXPECT_EQ(scene.geometry.positions[3 * kMany].x, 5.0f);
     ASSERT_EQ(scene.warnings.size(), 2u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("t.obj: 20001 of 40002 triangles left out: zero area"));
+    EXPECT_THAT(scene.warnings[0].text, HasSubstr("t.obj: 20001 of 40002 triangles left out: zero area"));
 }
 
 TEST_F(ManyTest, LinesThatAreContinued) {
@@ -90,7 +90,7 @@ TEST_F(ManyTest, LibrariesThatAreMissingAreOneWarning) {
     write("mesh.obj", repeated("mtllib none{}.mtl\n") + std::string(kTriangleObj));
     const Scene scene = loadSoon("mesh.obj");
     ASSERT_EQ(scene.warnings.size(), 2u);
-    EXPECT_THAT(scene.warnings[0],
+    EXPECT_THAT(scene.warnings[0].text,
                 HasSubstr("none0.mtl: no such file: its materials are grey (19999 more MTL"));
 }
 

@@ -72,7 +72,7 @@ TEST_F(MaterialsTest, ALibraryThatCannotBeReadLeavesGrey) {
     write("m.mtl", std::string("newmtl red\nKd \0 0 0\n", 20));
     const Scene scene = loadObj("mtllib m.mtl\nusemtl red\n" + std::string(kTriangleObj));
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].baseColor, glm::vec3(0.8f));
-    EXPECT_THAT(scene.warnings,
+    EXPECT_THAT(textsOf(scene.warnings),
                 Contains(HasSubstr("m.mtl: line 2: holds a zero byte; expected a text file: its "
                                    "materials are grey")));
 }
@@ -103,8 +103,8 @@ TEST_F(MaterialsTest, StrictReadingRefusesWhatIsNotThere) {
 
 TEST_F(MaterialsTest, WarningsAreShort) {
     const Scene scene = loadObj("mtllib " + std::string(1 << 20, 'x') + ".mtl\n" + std::string(kTriangleObj));
-    EXPECT_LT(scene.warnings.at(0).size(), 1100u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("no such file"));
+    EXPECT_LT(scene.warnings.at(0).text.size(), 1100u);
+    EXPECT_THAT(scene.warnings[0].text, HasSubstr("no such file"));
 }
 
 TEST_F(MaterialsTest, MaterialsThatNoFaceHasAreLeftOutButMayBeNamed) {
@@ -114,7 +114,7 @@ TEST_F(MaterialsTest, MaterialsThatNoFaceHasAreLeftOutButMayBeNamed) {
         "materials": {"blue": {"diffuse": 0.5}, "empty": {}, "red": {"diffuse": 0.25}}})");
     ASSERT_EQ(scene.materials[0].baseColor, glm::vec3(0.25f));
     EXPECT_EQ(scene.content.materials, 1u);
-    EXPECT_THAT(scene.warnings,
+    EXPECT_THAT(textsOf(scene.warnings),
                 Contains(HasSubstr("scene.json: materials.blue (and 1 more): no face has this material")));
     EXPECT_THAT(scene.files, testing::SizeIs(3)) << "the mesh is read once";
     EXPECT_THAT(errorOfJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}],
@@ -141,7 +141,7 @@ TEST_F(MaterialsTest, TimeIsThatOfWhatIsUsed) {
     EXPECT_EQ(scene.content.materials, 200u);
     EXPECT_EQ(scene.content.triangles, 5'200u);
     std::size_t textures = 0;
-    for (const std::string& warning : scene.warnings)
+    for (const std::string& warning : textsOf(scene.warnings))
         textures += warning.find("textures are not read") != std::string::npos ? 1 : 0;
     EXPECT_EQ(textures, 1u) << "once for the file";
 }
@@ -153,7 +153,7 @@ TEST_F(MaterialsTest, MissingLibrariesAmongManyFiles) {
         lines += fmt::format("mtllib Library Number {}x.mtl\n", i);
     }
     write("mesh.obj", lines + std::string(kTriangleObj));
-    EXPECT_THAT(timed("mesh.obj").warnings, Contains(HasSubstr("1499 more MTL files are missing")));
+    EXPECT_THAT(textsOf(timed("mesh.obj").warnings), Contains(HasSubstr("1499 more MTL files are missing")));
 }
 
 }  // namespace

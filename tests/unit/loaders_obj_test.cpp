@@ -94,8 +94,8 @@ TEST_F(ObjTest, MissingMtlIsAWarning) {
     EXPECT_EQ(material.name, "brick wall");
     EXPECT_EQ(material.baseColor, glm::vec3(0.8f));
     ASSERT_GE(scene.warnings.size(), 2u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("none.mtl: no such file"));
-    EXPECT_THAT(scene.warnings[1], HasSubstr("\"brick wall\" is not defined"));
+    EXPECT_THAT(scene.warnings[0].text, HasSubstr("none.mtl: no such file"));
+    EXPECT_THAT(scene.warnings[1].text, HasSubstr("\"brick wall\" is not defined"));
 }
 
 TEST_F(ObjTest, MtlFilesWithBlanksOrSeveralOnALine) {
@@ -117,12 +117,12 @@ TEST_F(ObjTest, DegenerateTrianglesAreLeftOutAndCounted) {
     const Scene scene =
         loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 1 1e-9 0\nf 1 1 2\nf 1 2 3\nf 1 2 4\nf 1 4 5\n");
     EXPECT_EQ(scene.geometry.triangles.size(), 1u + 2u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("mesh.obj: 3 of 4 triangles left out: zero area"));
+    EXPECT_THAT(scene.warnings[0].text, HasSubstr("mesh.obj: 3 of 4 triangles left out: zero area"));
 }
 
 TEST_F(ObjTest, UnknownStatementsAreIgnoredWithAWarning) {
     const Scene scene = loadObj(std::string(kTriangleObj) + "curv 0 1 1 2\nsurf 1\n");
-    EXPECT_THAT(scene.warnings[0],
+    EXPECT_THAT(scene.warnings[0].text,
                 HasSubstr("mesh.obj: line 5: \"curv\" is not supported; 2 such lines are ignored"));
 }
 

@@ -48,7 +48,7 @@ TEST_F(OriginTest, PositionsKeepWhatDoublesTell) {
     EXPECT_NEAR(glm::distance(corner(scene, 0, 0), kUtm), 0.0, 1e-6);
     EXPECT_NEAR(corner(scene, 0, 1).x - corner(scene, 0, 0).x, 1.2, 1e-6);
     EXPECT_LT(glm::length(scene.camera.target), 2.0f);
-    EXPECT_THAT(scene.warnings[0],
+    EXPECT_THAT(scene.warnings[0].text,
                 HasSubstr("coordinates are far from the origin for their extent: they are used "
                           "less 512346, 4612346, 121"));
     EXPECT_NE(scene.hash, loadObj(triangleAt(kUtm + 10.0)).hash);
@@ -95,7 +95,7 @@ TEST_F(OriginTest, ATransformMayBringAFarMeshHome) {
         "transform": [1,0,0,-512345.67, 0,1,0,-4612345.671, 0,0,1,-120.5, 0,0,0,1]}]})");
     EXPECT_EQ(scene.origin, glm::dvec3(0.0));
     EXPECT_NEAR(glm::length(corner(scene, 0, 0)), 0.0, 1e-6);
-    EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("far from the origin"))));
+    EXPECT_THAT(textsOf(scene.warnings), Not(Contains(HasSubstr("far from the origin"))));
 }
 
 TEST_F(OriginTest, PlacesBeyondTheLimitOfFloatsAreMovedWithin) {
@@ -136,7 +136,7 @@ TEST_F(OriginTest, ALandscapeOfUtmCoordinatesKeepsItsCentimetres) {
     const Scene scene = loadObj(landscape());
     EXPECT_NE(scene.origin, glm::dvec3(0.0));
     EXPECT_NEAR(glm::distance(corner(scene, 0, 0), glm::dvec3(300000.13, 5400000.37, 100.25)), 0.0, 3e-3);
-    EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("single precision"))));
+    EXPECT_THAT(textsOf(scene.warnings), Not(Contains(HasSubstr("single precision"))));
 }
 
 TEST_F(OriginTest, AStrayTriangleDoesNotCostAllOthersTheirDigits) {
@@ -150,13 +150,13 @@ TEST_F(OriginTest, AStrayTriangleDoesNotCostAllOthersTheirDigits) {
     const Scene scene = loadObj(pyramid + "v 0 0 0\nv 1.3 0 0\nv 0 1.3 0\nf 6 7 8\n");
     EXPECT_NEAR(glm::distance(corner(scene, 0, 0), kUtm), 0.0, 1e-3);
     EXPECT_NEAR(glm::distance(corner(scene, 1, 1), kUtm + glm::dvec3(7.3, 7.3, 0)), 0.0, 1e-3);
-    EXPECT_THAT(scene.warnings,
+    EXPECT_THAT(textsOf(scene.warnings),
                 Contains(HasSubstr("mesh.obj: single precision moves 2 vertices by up to 0.2")));
 }
 
 TEST_F(OriginTest, FineDetailFarApartLosesWithAWarning) {
     const Scene scene = loadObj(triangleAt(kUtm) + "v 0.1 0 0\nv 1.3 0 0\nv 0.1 0.9 0\nf 4 5 6\n");
-    EXPECT_THAT(scene.warnings,
+    EXPECT_THAT(textsOf(scene.warnings),
                 Contains(HasSubstr("moves 3 vertices by up to 0.17; typical edges are 1.5 long")));
 }
 
@@ -166,10 +166,10 @@ TEST_F(OriginTest, ObjectsFarApartWarnOfTheOneThatLoses) {
     const Scene scene = loadJson(
         R"({"duolux": 1, "objects": [{"mesh": "near.obj"}, {"mesh": "far.obj"}, {"mesh": "far.obj"}]})");
     EXPECT_NEAR(glm::distance(corner(scene, 1, 0), kUtm), 0.0, 1e-4) << "the place of most triangles";
-    EXPECT_THAT(scene.warnings,
+    EXPECT_THAT(textsOf(scene.warnings),
                 Contains(HasSubstr("scene.json: objects[0]: single precision moves vertices by up to 0.2")));
     const Scene together = loadJson(R"({"duolux": 1, "objects": [{"mesh": "far.obj"}]})");
-    EXPECT_THAT(together.warnings, Not(Contains(HasSubstr("single precision"))));
+    EXPECT_THAT(textsOf(together.warnings), Not(Contains(HasSubstr("single precision"))));
 }
 
 }  // namespace

@@ -28,14 +28,14 @@ TEST_F(ViewBounces, AreFewWhereLightMayGrowAndNothingSaysHowMany) {
     for (const Scene& scene : {with(shadowless), with("", withReflectance(1, 1)), with(material),
                                with("", withReflectance(0.5f, 1))}) {
         EXPECT_EQ(scene.render.bounces, 4u);
-        EXPECT_THAT(scene.warnings, Contains(HasSubstr("is not specified: using 4")));
+        EXPECT_THAT(textsOf(scene.warnings), Contains(HasSubstr("is not specified: using 4")));
     }
     // A specified number of bounces is kept without a warning.
     SceneChoices choices = withReflectance(1, 1);
     choices.bounces = 16;
     for (const Scene& scene : {with(shadowless + R"(, "render": {"bounces": 16})"), with("", choices)}) {
         EXPECT_EQ(scene.render.bounces, 16u);
-        EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("may grow"))));
+        EXPECT_THAT(textsOf(scene.warnings), Not(Contains(HasSubstr("may grow"))));
     }
 }
 
@@ -44,7 +44,7 @@ TEST_F(ViewBounces, AreSixteenWhereLightFades) {
                                with(R"(, "reflectance": {"preset": "shadowless"})", withReflectance(0, 1)),
                                with(R"(, "materials": {"default": {"diffuse": 1}})")}) {
         EXPECT_EQ(scene.render.bounces, 16u);
-        EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("may grow"))));
+        EXPECT_THAT(textsOf(scene.warnings), Not(Contains(HasSubstr("may grow"))));
     }
 }
 

@@ -278,9 +278,10 @@ TEST_F(ViewCameraFiles, AnOrthographicCameraShowsAsMuchAtItsTarget) {
 
 TEST_F(ViewCameraFiles, WhatIsLeftOutIsSaid) {
     const std::string far = std::string(kTriangleObj) + "v 0 0 700\nv .1 0 700\nv 0 .1 700\nf -3 -2 -1\n";
-    EXPECT_THAT(loadObj(far).warnings, testing::Contains(testing::HasSubstr(
-                                           "1 triangle is far from the rest (one of the corners is at "
-                                           "0, 0, 700)")));
+    EXPECT_THAT(
+        textsOf(loadObj(far).warnings),
+        testing::Contains(testing::HasSubstr("1 triangle is far from the rest (one of the corners is at "
+                                             "0, 0, 700)")));
 }
 
 TEST_F(ViewCameraFiles, ThePictureThatTheCallerWantsIsFilled) {

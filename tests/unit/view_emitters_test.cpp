@@ -35,7 +35,7 @@ SceneBuilder room() {
 }
 
 std::vector<std::string> warningsOf(const Scene& scene, const Camera& camera) {
-    return emitterWarnings(Surface(scene, scene.geometry.triangles.size()), camera);
+    return textsOf(emitterWarnings(Surface(scene, scene.geometry.triangles.size()), camera));
 }
 
 std::vector<std::string> warningsOf(const Scene& scene) {

@@ -70,7 +70,8 @@ TEST_F(LightTest, IsAddedToADarkObjWithAWarning) {
     const Scene scene = loadObj(kTriangleObj);
     ASSERT_EQ(scene.geometry.triangles.size(), 3u);
     expectDefaultLight(scene);
-    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("nothing emits light: a lamp is added")));
+    EXPECT_THAT(textsOf(scene.warnings),
+                testing::ElementsAre(HasSubstr("nothing emits light: a lamp is added")));
     EXPECT_NEAR(radianceOfWhite(scene), 0.8f, 0.04f);
 }
 
@@ -87,7 +88,7 @@ TEST_F(LightTest, IsNotAddedIfSomethingEmits) {
     write("m.mtl", "newmtl lamp\nKe 1 1 1\n");
     const Scene scene = loadObj("mtllib m.mtl\nusemtl lamp\n" + std::string(kTriangleObj));
     EXPECT_EQ(scene.geometry.triangles.size(), 1u);
-    EXPECT_THAT(scene.warnings, IsEmpty());
+    EXPECT_THAT(textsOf(scene.warnings), IsEmpty());
 }
 
 TEST_F(LightTest, AnUnusedEmitterDoesNotCount) {
@@ -100,8 +101,9 @@ TEST_F(LightTest, IsNotAddedWhereNoSurfaceScatters) {
     write("mesh.obj", "mtllib m.mtl\nusemtl black\n" + std::string(kTriangleObj));
     const Scene dark = load("mesh.obj");
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
-    EXPECT_THAT(dark.warnings, testing::ElementsAre("all surfaces are black: they neither reflect nor emit "
-                                                    "light: the picture will be black"));
+    EXPECT_THAT(textsOf(dark.warnings),
+                testing::ElementsAre("all surfaces are black: they neither reflect nor emit "
+                                     "light: the picture will be black"));
     // Surfaces that only pass light on, before a dim emitter that is seen as it is.
     write("mesh.obj", "mtllib m.mtl\nusemtl dim\n" + std::string(kTriangleObj) + "usemtl grey\nf 1 3 2\n");
     const Scene seen = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "reflectance":
@@ -113,7 +115,7 @@ TEST_F(LightTest, JsonThatSaysLightsGetsNoOther) {
     write("mesh.obj", kTriangleObj);
     const Scene dark = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "lights": []})");
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
-    EXPECT_THAT(dark.warnings, testing::ElementsAre(HasSubstr("the picture will be black")));
+    EXPECT_THAT(textsOf(dark.warnings), testing::ElementsAre(HasSubstr("the picture will be black")));
 }
 
 TEST_F(LightTest, JsonWithoutLightsGetsOneBehindItsCamera) {
@@ -138,10 +140,10 @@ TEST_F(LightTest, EmittersThatLightNearlyNothingDoNotCount) {
     write("m.mtl", "newmtl dim\nKe 0.01 0 0\nnewmtl bright\nKe 200 200 200\n");
     const Scene dim = loadObj(planeAndLamp("dim"));
     expectDefaultLight(dim);
-    EXPECT_THAT(dim.warnings, testing::ElementsAre(HasSubstr("less than 5 % of white")));
+    EXPECT_THAT(textsOf(dim.warnings), testing::ElementsAre(HasSubstr("less than 5 % of white")));
     const Scene bright = loadObj(planeAndLamp("bright"));
     EXPECT_EQ(bright.geometry.triangles.size(), 4u);
-    EXPECT_THAT(bright.warnings, IsEmpty());
+    EXPECT_THAT(textsOf(bright.warnings), IsEmpty());
 }
 
 TEST_F(LightTest, IsAddedOrLeftOutAsTheCallerSays) {
@@ -153,7 +155,7 @@ TEST_F(LightTest, IsAddedOrLeftOutAsTheCallerSays) {
     EXPECT_EQ(none.geometry.triangles.size(), 4u);
     const Scene dark = loadScene(write("dark.obj", kTriangleObj), {.lamp = Lamp::kNever});
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
-    EXPECT_THAT(dark.warnings, testing::ElementsAre(HasSubstr("the picture will be black")));
+    EXPECT_THAT(textsOf(dark.warnings), testing::ElementsAre(HasSubstr("the picture will be black")));
 }
 
 TEST_F(LightTest, StandsInsideAClosedRoomOutOfView) {

@@ -11,8 +11,6 @@
 #include "shaders/lib/bsdf/bsdf_types.glsl"
 #include "shaders/lib/frame.glsl"
 
-const float kSmoothAlpha = 1e-3;
-
 float ggxAlpha(Bsdf bsdf) { return bsdf.roughness * bsdf.roughness; }
 
 bool isMirror(Bsdf bsdf) { return ggxAlpha(bsdf) < kSmoothAlpha; }
