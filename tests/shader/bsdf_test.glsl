@@ -60,6 +60,8 @@ TEST(NothingIsBelowTheHorizon) {
     vec3 below = -above(frame.geometric);
     uint mode = randomMode();
     EXPECT_EQ(bsdfEvaluate(bsdf, frame, wo, below, mode), vec3(0.0));
+    BsdfFrame level = BsdfFrame(frame.geometric, frame.geometric);
+    EXPECT_EQ(bsdfPdf(bsdf, level, wo, below, mode), 0.0);
     BsdfSample s = bsdfSample(bsdf, frame, wo, randomFloat(0.0, 1.0), randomVec2(), mode);
     EXPECT_TRUE(s.pdf == 0.0 || dot(s.wi, frame.geometric) > 0.0);
     // Light from behind the shading normal reaches nothing.

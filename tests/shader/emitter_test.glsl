@@ -1,7 +1,8 @@
 // Emission by side, densities, and what each kind of emitter returns.
 #include "shaders/lib/emitter.glsl"
 
-uvec4 fetchEmitterTexel(uint index) { return uvec4(index); }
+uvec4 emitterTexels[12];
+uvec4 fetchEmitterTexel(uint index) { return emitterTexels[min(index, 11u)]; }
 uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
 uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }
@@ -142,4 +143,40 @@ TEST(PointEmitterSendsItsPower) {
     EXPECT_EQ(leaveSurface(ray.point, ray.direction).origin, emitter.v0);
     EmitterSeen seen = seeEmitter(emitter, pointOnEmitter(emitter, randomVec2()), randomDirection());
     EXPECT_EQ(seen.intensity.visible, vec3(0.0));
+}
+
+void store(uint index, Emitter emitter) {
+    uint texel = index * kEmitterTexels;
+    emitterTexels[texel] = uvec4(floatBitsToUint(emitter.v0), emitter.flags);
+    emitterTexels[texel + 1u] = uvec4(floatBitsToUint(emitter.v1), floatBitsToUint(emitter.positionError));
+    emitterTexels[texel + 2u] = uvec4(floatBitsToUint(emitter.v2), emitter.triangle);
+    emitterTexels[texel + 3u] = uvec4(floatBitsToUint(emitter.emission.invisible), floatBitsToUint(emitter.density));
+    emitterTexels[texel + 4u] = uvec4(floatBitsToUint(emitter.emission.visible), 0u);
+    emitterTexels[texel + 5u] = uvec4(floatBitsToUint(1.0), index, 0u, 0u);
+}
+
+// A triangle and a point: the one that is chosen is sampled as its kind, and the closed form adds up both.
+TEST(EachKindIsServedByItsOwnFunctions) {
+    Emitter triangle = triangleEmitter(kEmitterFront | kEmitterBack);
+    Emitter point = pointEmitter();
+    store(0u, triangle);
+    store(1u, point);
+    vec3 receiver = randomVec3(2.0, 3.0);
+    vec3 normal = randomDirection();
+    uvec2 words = uvec2(randomUint() >> 1u, randomUint());
+    EmitterChoice choice = chooseEmitter(2u, words);
+    EXPECT_EQ(choice.index, 0u);
+    EXPECT_EQ(sampleEmitter(2u, receiver, words).wi, sampleTriangleEmitter(triangle, 0u, receiver, choice.u).wi);
+    EXPECT_FALSE(sampleEmitter(2u, receiver, words).delta);
+    words.x |= 0x80000000u;
+    EXPECT_EQ(chooseEmitter(2u, words).index, 1u);
+    EXPECT_EQ(sampleEmitter(2u, receiver, words).wi, samplePointEmitter(point, 1u, receiver).wi);
+    EXPECT_TRUE(sampleEmitter(2u, receiver, words).delta);
+    vec3 sum = irradianceFromTriangle(triangle, receiver, normal).visible + irradianceFromPoint(point, receiver, normal).visible;
+    EXPECT_NEAR(irradianceFromEmitters(2u, receiver, normal).visible, sum, 1e-6);
+    vec2 u = randomVec2();
+    EmitterPoint on = pointOnEmitter(triangle, u);
+    EXPECT_EQ(emitRay(triangle, on, 0.25, u).direction, emitFromTriangle(triangle, on, 0.25, u).direction);
+    EXPECT_EQ(emitRay(point, pointOnEmitter(point, u), 0.25, u).direction, uniformSphere(u));
+    EXPECT_EQ(seeEmitter(triangle, on, normal).intensity.visible, seeTriangleEmitter(triangle, on, normal).intensity.visible);
 }
