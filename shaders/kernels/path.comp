@@ -147,10 +147,13 @@ Traversal nextRay(Path path, Shadow shadow, bool inEmitterTree, inout PixelSums 
     sums.cameraRays += onPath && fromCamera ? 1u : 0u;
     sums.bounceRays += onPath && !fromCamera && !inEmitterTree ? 1u : 0u;
     sums.emitterRays += onPath && inEmitterTree ? 1u : 0u;
-    Segment segment = path.segment;
-    if (shadow.pending) segment = shadow.segment;
-    Traversal ray = traversalStart(inEmitterTree && onPath ? params.emitterRoot : 0u, segment.origin, segment.direction,
-                                   segment.t, segment.order, shadow.pending ? shadow.distance : kInfinity,
+    // Selected field by field, which is faster on lavapipe than a branch.
+    Traversal ray = traversalStart(inEmitterTree && onPath ? params.emitterRoot : 0u,
+                                   shadow.pending ? shadow.segment.origin : path.segment.origin,
+                                   shadow.pending ? shadow.segment.direction : path.segment.direction,
+                                   shadow.pending ? shadow.segment.t : path.segment.t,
+                                   shadow.pending ? shadow.segment.order : path.segment.order,
+                                   shadow.pending ? shadow.distance : kInfinity,
                                    shadow.pending && kTransmittance == kTransmittanceZero);
     if (kPlanes && shadow.pending) ray.order = shadow.beforeOrder;
     return ray;

@@ -24,7 +24,7 @@ DUOLUX_CONST uint kEmitterKindPoint = 2u;
 #ifdef __cplusplus
 struct DeviceEmitter {
     vec3 v0;  // v0, v1, v2: corners; v0: position of a point emitter
-    uint flags;
+    uint unused;
     vec3 v1;
     float positionError;  // bound on the rounding error of a point on the triangle, as for hits
     vec3 v2;
@@ -33,7 +33,7 @@ struct DeviceEmitter {
     float density;   // with which next-event estimation samples a point of the emitter, m^-2; of a point
                      // emitter the probability of choosing it
     vec3 visible;
-    uint unused;
+    uint flags;  // beside the emission: a hit reads only these two texels
     // Entry of the alias table (Walker 1974; Vose 1991).
     float threshold;  // probability of keeping this entry
     uint alias;       // the entry to use otherwise

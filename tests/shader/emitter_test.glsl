@@ -147,11 +147,11 @@ TEST(PointEmitterSendsItsPower) {
 
 void store(uint index, Emitter emitter) {
     uint texel = index * kEmitterTexels;
-    emitterTexels[texel] = uvec4(floatBitsToUint(emitter.v0), emitter.flags);
+    emitterTexels[texel] = uvec4(floatBitsToUint(emitter.v0), 0u);
     emitterTexels[texel + 1u] = uvec4(floatBitsToUint(emitter.v1), floatBitsToUint(emitter.positionError));
     emitterTexels[texel + 2u] = uvec4(floatBitsToUint(emitter.v2), emitter.triangle);
     emitterTexels[texel + 3u] = uvec4(floatBitsToUint(emitter.emission.invisible), floatBitsToUint(emitter.density));
-    emitterTexels[texel + 4u] = uvec4(floatBitsToUint(emitter.emission.visible), 0u);
+    emitterTexels[texel + 4u] = uvec4(floatBitsToUint(emitter.emission.visible), emitter.flags);
     emitterTexels[texel + 5u] = uvec4(floatBitsToUint(1.0), index, 0u, 0u);
 }
 

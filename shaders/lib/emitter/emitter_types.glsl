@@ -27,7 +27,7 @@ Emitter fetchEmitter(uint index) {
     uvec4 t2 = fetchEmitterTexel(texel + 2u);
     uvec4 t3 = fetchEmitterTexel(texel + 3u);
     uvec4 t4 = fetchEmitterTexel(texel + 4u);
-    return Emitter(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t0.w, uintBitsToFloat(t1.w),
+    return Emitter(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t4.w, uintBitsToFloat(t1.w),
                    t2.w, Light(uintBitsToFloat(t3.xyz), uintBitsToFloat(t4.xyz)), uintBitsToFloat(t3.w));
 }
 
