@@ -67,8 +67,7 @@ glm::vec3 cosineDirection(const glm::vec3& normal, Random& random) {
 /// Points on emitters, uniform in area.
 class Emitters {
   public:
-    explicit Emitters(const Scene& scene)
-        : geometry_(scene.geometry), triangles_(emittingTriangles(scene)) {
+    explicit Emitters(const Scene& scene) : geometry_(scene.geometry), triangles_(emittingTriangles(scene)) {
         double area = 0.0;
         for (const std::uint32_t i : triangles_) {
             const auto [a, b, c] = corners(i);

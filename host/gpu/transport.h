@@ -34,8 +34,8 @@ TransportTraits analyseTransport(const Scene& scene);
 /// True at the indices of materials that triangles refer to; only these count.
 std::vector<bool> usedMaterials(const Scene& scene);
 
-/// Whether a part of the surface reflects each direction into one other. The light tracer cannot connect mirrors to
-/// the camera.
+/// Whether a part of the surface reflects each direction into one other. The light tracer cannot connect
+/// mirrors to the camera.
 bool isMirror(const Material& material);
 
 /// The largest emitted radiance over all materials, channels and components; of point emitters the irradiance

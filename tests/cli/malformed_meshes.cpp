@@ -92,7 +92,8 @@ std::vector<MalformedScene> malformedObjs() {
         {"PlyCutOff",
          {{"mesh.ply",
            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0.00 0.00 0.00\n1.00 0.00 0.00\n0 1"}},
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0.00 0.00 0.00\n1.00 0.00 "
+           "0.00\n0 1"}},
          {"mesh.ply: line 12 (vertex 3 of 3): ", "ends here", "expected 3"}},
         {"PlyThatIsObj", {{"mesh.ply", kVertices}}, {"mesh.ply: line 1: ", "\"ply\""}},
         {"UnknownExtension", {{"mesh.stl", "solid\n"}}, {"mesh.stl: ", ".obj", ".ply", ".json"}},

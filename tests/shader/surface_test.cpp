@@ -135,8 +135,10 @@ TEST(Surface, PositionIsOffTheSurfaceOnTheRaysSide) {
 TEST(Surface, FramesMatchDoublePrecision) {
     const std::vector<glm::vec3> normals = randomDirections(1 << 14, 5);
     const std::vector<glm::vec3> directions = randomDirections(1 << 14, 6);
-    const std::vector<glm::vec3> local = ShaderLibrary("shaders/lib/frame.glsl").call<glm::vec3>("toFrame", normals, directions);
-    const std::vector<glm::vec3> world = ShaderLibrary("shaders/lib/frame.glsl").call<glm::vec3>("fromFrame", normals, directions);
+    const std::vector<glm::vec3> local =
+        ShaderLibrary("shaders/lib/frame.glsl").call<glm::vec3>("toFrame", normals, directions);
+    const std::vector<glm::vec3> world =
+        ShaderLibrary("shaders/lib/frame.glsl").call<glm::vec3>("fromFrame", normals, directions);
     for (std::size_t i = 0; i < normals.size(); ++i) {
         // The rotation from z to the normal by the smaller angle; below the equator the rotation from -z,
         // with the second axis negated.

@@ -40,7 +40,8 @@ ExactCase lit(std::string name, const Reflectance& reflectance, const std::vecto
             {glm::vec3(point.position), point.invisible, point.visible});
         sum = sum + irradiance(point, glm::normalize(Vec3(normal)));
     }
-    // With stratified choices among so few points, errors of several pixels are equal, and do not vary with the seed.
+    // With stratified choices among so few points, errors of several pixels are equal, and do not vary with
+    // the seed.
     scene.builder().scene.render.sampler = Sampler::kIndependent;
     return scene.finish(std::move(name), 3, scene.reflected(sum));
 }
