@@ -21,6 +21,7 @@
 #include "host/base/srgb.h"
 #include "host/loaders/ply_body.h"
 #include "host/loaders/ply_header.h"
+#include "host/loaders/ply_oddities.h"
 #include "host/loaders/rounding.h"
 #include "host/loaders/tally.h"
 #include "host/loaders/triangulate.h"
@@ -32,23 +33,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-
-/// Errors that do not prevent a file from being loaded.
-enum class Oddity { kShortFace, kBadFace, kUnusedVertex, kNormal, kColour, kAlpha, kCount };
-
-struct Description {
-    Oddity kind;
-    const char* what;
-    const char* consequence;
-};
-constexpr Description kDescriptions[] = {
-    {Oddity::kShortFace, "a face of fewer than 3 corners", "left out"},
-    {Oddity::kBadFace, "a face with a vertex that is not in the file", "left out"},
-    {Oddity::kUnusedVertex, "a vertex that is not finite or too large", "no face uses it"},
-    {Oddity::kNormal, "a normal that is 0 or not finite", "the faces at this vertex are flat"},
-    {Oddity::kColour, "a colour that is not between 0 and 1", "clamped"},
-    {Oddity::kAlpha, "a vertex that is not opaque", "alpha is ignored"},
-};
 
 /// Loads one file.
 class PlyLoader {
@@ -85,7 +69,8 @@ class PlyLoader {
         mesh_.materials.emplace_back();
         mesh_.materials.back().name = kDefaultMaterialName;
         if (!mesh_.geometry.colours.empty()) mesh_.materials.back().baseColor = glm::vec3(1.0f);
-        warn();
+        oddities_.countOverlongLines(body_.overlongItems());
+        oddities_.warn(path_, header_, mesh_.warnings);
         return std::move(mesh_);
     }
 
@@ -119,9 +104,7 @@ class PlyLoader {
 
     void noteUnused(const PlyElement& element, const std::vector<bool>& used) {
         for (std::size_t i = 0; i < used.size(); ++i) {
-            if (!used[i])
-                unused_.push_back(
-                    fmt::format("{} of {}", shortened(element.properties[i].name), element.name));
+            if (!used[i]) oddities_.noteUnused(element, element.properties[i]);
         }
     }
 
@@ -182,7 +165,7 @@ class PlyLoader {
         const double length = glm::length(normal);
         const bool isGood = length > 0.0 && std::isfinite(length);
         if (!isGood) {
-            tolerate(Oddity::kNormal, "the normal is 0 or not finite", "expected a direction");
+            tolerate(PlyOddity::kNormal, "the normal is 0 or not finite", "expected a direction");
         }
         mesh_.geometry.normals.push_back(isGood ? glm::vec3(normal / length) : glm::vec3(0.0f));
     }
@@ -205,8 +188,8 @@ class PlyLoader {
             // Also 0 for what is not a number.
             linear[i] = colour[i] > 0.0 ? static_cast<float>(srgbDecode(std::min(colour[i], 1.0))) : 0.0f;
         }
-        if (!isGood) tolerate(Oddity::kColour, "a colour is not between 0 and 1", "expected 0 to 1");
-        if (alpha < 1.0) count(Oddity::kAlpha, [&] { return body_.place(); });
+        if (!isGood) tolerate(PlyOddity::kColour, "a colour is not between 0 and 1", "expected 0 to 1");
+        if (alpha < 1.0) oddities_.count(PlyOddity::kAlpha, [&] { return body_.place(); });
         mesh_.geometry.colours.push_back(linear);
     }
 
@@ -268,9 +251,9 @@ class PlyLoader {
             const std::string remedy = vertexCount == 0 ? std::string("there are no vertices")
                                                         : fmt::format("expected 0 to {}", vertexCount - 1);
             if (!badFace_) badFace_ = body_.error(problem, remedy);
-            tolerate(Oddity::kBadFace, problem, remedy);
+            tolerate(PlyOddity::kBadFace, problem, remedy);
         } else {
-            tolerate(Oddity::kShortFace, fmt::format("{} corners", length), "expected at least 3");
+            tolerate(PlyOddity::kShortFace, fmt::format("{} corners", length), "expected at least 3");
         }
     }
 
@@ -307,7 +290,7 @@ class PlyLoader {
             throw InputError(path_.string(), place, "a coordinate is not finite or too large",
                              fmt::format("expected at most {:g} in magnitude", kLargestCoordinate));
         }
-        count(Oddity::kUnusedVertex, [&] { return place; });
+        oddities_.count(PlyOddity::kUnusedVertex, [&] { return place; });
     }
 
     void triangulateFaces() {
@@ -342,58 +325,14 @@ class PlyLoader {
     }
 
     /// Counts an error in the current item, or throws it in strict reading.
-    void tolerate(Oddity oddity, std::string_view problem, std::string_view remedy) {
+    void tolerate(PlyOddity oddity, std::string_view problem, std::string_view remedy) {
         if (strict_) throw body_.error(problem, remedy);
-        count(oddity, [&] { return body_.place(); });
-    }
-
-    template <typename Place>
-    void count(Oddity oddity, const Place& place) {
-        Found& found = found_[static_cast<std::size_t>(oddity)];
-        if (found.count++ == 0) found.first = place();
-    }
-
-    void warn() {
-        const std::string file = path_.string();
-        for (const auto& [kind, what, consequence] : kDescriptions) {
-            const auto& [number, first] = found_[static_cast<std::size_t>(kind)];
-            if (number == 0) continue;
-            mesh_.warnings.push_back(fmt::format("{}: {}: {}{}: {}", file, first, what,
-                                                 number == 1 ? "" : fmt::format(" (and {} more)", number - 1),
-                                                 consequence));
-        }
-        if (const std::uint64_t number = body_.overlongItems(); number > 0) {
-            mesh_.warnings.push_back(fmt::format("{}: {} line{} more numbers than the header says: ignored",
-                                                 file, number, number == 1 ? " has" : "s have"));
-        }
-        for (const PlyElement& element : header_.elements) {
-            if (element.name != "vertex" && element.name != "face")
-                unused_.push_back(fmt::format("element {}", shortened(element.name)));
-        }
-        if (!unused_.empty()) {
-            constexpr std::size_t kShown = 8;
-            const std::size_t hidden = unused_.size() - std::min(unused_.size(), kShown);
-            unused_.resize(unused_.size() - hidden);
-            mesh_.warnings.push_back(fmt::format("{}: not supported and ignored: {}{}", file,
-                                                 fmt::join(unused_, ", "),
-                                                 hidden == 0 ? "" : fmt::format(" and {} more", hidden)));
-        }
-        if (header_.namesTexture)
-            mesh_.warnings.push_back(fmt::format("{}: textures are not supported", file));
-        if (header_.unknownLine) {
-            mesh_.warnings.push_back(fmt::format("{}: {} in the header is unknown: ignored", file,
-                                                 inQuotes(*header_.unknownLine)));
-        }
+        oddities_.count(oddity, [&] { return body_.place(); });
     }
 
     /// Of the values of a vertex.
     static constexpr std::size_t kPosition = 0, kNormal = 3, kColour = 6, kAlpha = 9, kSlots = 10,
                                  kSkipped = kSlots;
-
-    struct Found {
-        std::uint64_t count = 0;
-        std::string first;  ///< its place
-    };
 
     const fs::path path_;
     const bool strict_;
@@ -404,8 +343,7 @@ class PlyLoader {
     std::vector<glm::dvec3> positions_;
     std::vector<std::uint32_t> ends_, corners_;  ///< see PolygonView
     std::optional<InputError> badFace_;          ///< the first that is left out because of its vertices
-    std::array<Found, static_cast<std::size_t>(Oddity::kCount)> found_;
-    std::vector<std::string> unused_;  ///< properties and elements
+    PlyOddities oddities_;
 };
 
 }  // namespace

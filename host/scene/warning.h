@@ -17,7 +17,8 @@ enum class WarningKind : std::uint8_t {
 /// A message for the user about something that does not prevent a picture.
 struct Warning {
     // NOLINTNEXTLINE(google-explicit-constructor): most warnings are a text alone
-    Warning(std::string text, WarningKind kind = WarningKind::kOther) : text(std::move(text)), kind(kind) {}
+    Warning(std::string message, WarningKind about = WarningKind::kOther)
+        : text(std::move(message)), kind(about) {}
 
     std::string text;
     WarningKind kind;
