@@ -33,7 +33,7 @@ struct ImageRows {
     /// Fills both spans with whole rows from `firstRow` on; the size of the spans determines their number.
     std::function<void(std::uint32_t firstRow, std::span<glm::vec3> invisible, std::span<glm::vec3> visible)>
         read;
-    std::vector<LayerRows> layers;  ///< only EXR files hold them
+    std::vector<LayerRows> layers = {};  ///< only EXR files hold them
 };
 
 /// The rows of an image, which must outlive them.
