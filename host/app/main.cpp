@@ -54,9 +54,7 @@ int run(int argc, char** argv) {
                          fmt::format("duolux {} ({})", duolux::versionString(), duolux::commitString()));
     app.footer(
         "A model to a picture:  duolux render model.obj -o model.png\n"
-        "All options:           duolux COMMAND --help\n\n"
-        "BVHs of larger scenes are cached in $XDG_CACHE_HOME/duolux (default: ~/.cache/duolux), which never "
-        "exceeds 1 GiB; DUOLUX_NO_CACHE=1 in the environment disables the cache.");
+        "All options:           duolux COMMAND --help");
     app.require_subcommand(1);
     // The last of repeated options counts, so that scripts can append to default options.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "host/app/options.h"
-#include "host/app/tree_folder.h"
 
 namespace duolux {
 
@@ -32,7 +31,7 @@ std::vector<std::string> namesOf(const T (&values)[N]) {
 }  // namespace
 
 TuningChoice TuningOptions::choice() const {
-    return {byName(kLayouts, layout), byName(kKernels, kernel), userTreeFolder()};
+    return {byName(kLayouts, layout), byName(kKernels, kernel)};
 }
 
 void addTuningOptions(CLI::App& command, TuningOptions& options) {

@@ -244,9 +244,7 @@ void SceneSuite::State::addStart() {
         std::filesystem::remove_all(cache);
         std::filesystem::create_directories(cache);
         return BenchTimes{
-            secondsOfProgram(options.program, arguments,
-                             {"MESA_SHADER_CACHE_DIR=" + cache.string(), "XDG_CACHE_HOME=" + cache.string()}),
-            0.0};
+            secondsOfProgram(options.program, arguments, {"MESA_SHADER_CACHE_DIR=" + cache.string()}), 0.0};
     });
 }
 

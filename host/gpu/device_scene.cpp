@@ -9,7 +9,6 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
-#include "host/bvh/tree_cache.h"
 #include "host/gpu/emitter_table.h"
 #include "host/gpu/surface_planes.h"
 #include "host/scene/emitters.h"
@@ -125,11 +124,10 @@ AccelerationStructure buildStructure(const Device& device, const Buffer& buffer,
 }
 
 /// The tree over all triangles, and one over the emitters behind it.
-Trees joinTrees(const Geometry& geometry, const WideBvh& all, std::span<const std::uint32_t> emitters,
-                const std::filesystem::path& treeFolder) {
+Trees joinTrees(const Geometry& geometry, const WideBvh& all, std::span<const std::uint32_t> emitters) {
     Trees trees{all.nodes, all.pairs, 0};
     if (emitters.empty()) return trees;
-    const WideBvh second = cachedWideBvh(treeFolder, geometry, emitters);
+    const WideBvh second = buildWideBvh(geometry, emitters);
     trees.emitterRoot = static_cast<std::uint32_t>(trees.nodes.size());
     const auto firstPair = static_cast<std::uint32_t>(trees.pairs.size());
     for (shared::WideNode node : second.nodes) {
@@ -249,7 +247,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
     const std::span<const std::uint32_t> inTree =
         emitterTree ? std::span<const std::uint32_t>(emitters) : std::span<const std::uint32_t>();
     const Trees trees =
-        rayQueries ? listTriangles(geometry, inTree) : joinTrees(geometry, tree, inTree, choice.treeFolder);
+        rayQueries ? listTriangles(geometry, inTree) : joinTrees(geometry, tree, inTree);
     tuning.layout = layoutThatFits(device.info(), tuning.layout, choice, trees.largestBuffer());
     buildSeconds += secondsSince(start);
 
@@ -335,7 +333,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningCh
     const auto start = std::chrono::steady_clock::now();
     WideBvh tree;
     if (chooseTuning(device.info(), choice).layout != Layout::kRayQuery)
-        tree = cachedWideBvh(choice.treeFolder, scene.geometry, allTriangles(scene.geometry));
+        tree = buildWideBvh(scene.geometry, allTriangles(scene.geometry));
     return assemble(device, scene, choice, std::move(tree), secondsSince(start));
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -29,8 +28,6 @@ const char* nameOf(KernelKind kind);  ///< "refilling", "plain"
 struct TuningChoice {
     std::optional<Layout> layout;
     std::optional<KernelKind> kernel;
-    /// Where trees of large scenes are kept for later uploads; empty: nowhere. See TreeCache.
-    std::filesystem::path treeFolder{};
 };
 
 /// How kernels run on a device. No value changes the image: it stays bitwise identical.

@@ -11,7 +11,7 @@ namespace duolux {
 nlohmann::json runProgram(const std::filesystem::path& program, std::vector<std::string> arguments,
                           const std::filesystem::path& report) {
     arguments.insert(arguments.end(), {"--report", report.string()});
-    const int status = runProcess(program.string(), arguments, {"DUOLUX_NO_CACHE=1"});
+    const int status = runProcess(program.string(), arguments);
     if (status != 0) {
         throw MachineError(fmt::format("failed ({}): {} {}",
                                        status == 127 ? "cannot be started" : "see above", program.string(),

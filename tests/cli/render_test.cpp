@@ -278,28 +278,6 @@ TEST_F(RenderCommand, UnknownDeviceIsNamedWithThoseThereAre) {
     EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(RenderCommand, GivesTheSameBitsFromATreeThatWasKept) {
-    ASSERT_EQ(
-        runDuolux(folder_.path(), {"make-scene", "two-spheres", "--triangles", "70000", "-o", "."}).status,
-        0);
-    const std::string cache = folder_ / "cache";
-    const auto pixels = [&](const std::vector<std::string>& environment) {
-        const ProgramResult result = runProgram(
-            DUOLUX_EXECUTABLE, folder_.path(),
-            {"render", "two_spheres.json", "--device", "cpu", "--size", "16x16", "--spp", "1", "-o", "a.pfm"},
-            std::nullopt, std::chrono::seconds(120), environment);
-        EXPECT_EQ(result.status, 0) << result.err;
-        return contentsOf(folder_ / "a.pfm");
-    };
-    const std::string built = pixels({"XDG_CACHE_HOME=" + cache, "DUOLUX_NO_CACHE=1"});
-    EXPECT_FALSE(std::filesystem::exists(cache + "/duolux"));
-    EXPECT_EQ(pixels({"XDG_CACHE_HOME=" + cache}), built);
-    const std::filesystem::directory_iterator kept(cache + "/duolux");
-    EXPECT_EQ(std::distance(kept, {}), 1);
-    EXPECT_EQ(pixels({"XDG_CACHE_HOME=" + cache}), built);
-    EXPECT_EQ(pixels({"XDG_CACHE_HOME=/proc"}), built);
-}
-
 TEST_F(RenderCommand, DevicesAreChosenByKindIndexAndName) {
     for (const char* selector : {"cpu", "0", "LLVM"}) {
         EXPECT_EQ(render({"--size", "8x8", "--spp", "1", "--device", selector, "-o", "a.png"}).status, 0)

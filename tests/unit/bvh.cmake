@@ -1,1 +1,1 @@
-duolux_test(bvh_test SOURCES bvh_sah_test.cpp bvh_test.cpp bvh_pairs_test.cpp bvh_tree_cache_test.cpp bvh_tree_file_test.cpp LINK duolux_bvh duolux_generators duolux_view)
+duolux_test(bvh_test SOURCES bvh_sah_test.cpp bvh_test.cpp bvh_pairs_test.cpp LINK duolux_bvh duolux_generators duolux_view)
