@@ -133,7 +133,7 @@ std::string overexposureWarning(const Brightness& brightness, float exposure) {
 
 }  // namespace
 
-std::string exposureWarning(const Scene& scene, const ImageRows& rows, float exposure, bool clips) {
+std::string exposureWarning(const LoadedScene& scene, const ImageRows& rows, float exposure, bool clips) {
     const Brightness brightness(rows, scene.display);
     const std::optional<float> bright = brightness.reachedBy(kLitPart * brightness.pixels());
     if (bright && std::exp2(*bright + exposure) >= kDarkestGrey)
@@ -143,7 +143,7 @@ std::string exposureWarning(const Scene& scene, const ImageRows& rows, float exp
         return dark +
                fmt::format("all of it is very dark; try --exposure {:.0f}", std::ceil(-1.0f - *bright));
     }
-    const DarkReason reason = whyDark(scene);
+    const DarkReason reason = whyDark(scene, scene.settings);
     const bool said = std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const Warning& warning) {
         return (reason.darkness == Darkness::kNothingEmits && warning.kind == WarningKind::kBlackPicture) ||
                (reason.darkness == Darkness::kFacingAway && warning.kind == WarningKind::kEmittersFaceAway);

@@ -17,6 +17,7 @@
 #include "host/base/printable.h"
 #include "host/base/utf8.h"
 #include "host/scene/energy.h"
+#include "host/scene/hash.h"
 #include "host/view/load.h"
 
 namespace duolux {
@@ -112,11 +113,11 @@ void printGeometry(const Scene& scene) {
     printField("memory", fmt::format("{} of geometry on the host", bytes(memoryOf(geometry))));
 }
 
-void printView(const Scene& scene) {
+void printView(const LoadedScene& scene) {
     printField("camera", onOneLine(cameraOf(scene)));
     printField("picture",
-               fmt::format("{}x{}, {} spp, {} bounces, seed {}", scene.render.width, scene.render.height,
-                           scene.render.spp, scene.render.bounces, scene.render.seed));
+               fmt::format("{}x{}, {} spp, {} bounces, seed {}", scene.settings.width, scene.settings.height,
+                           scene.settings.spp, scene.settings.bounces, scene.settings.seed));
     printField("display", fmt::format("[{:g}, {:g}]", scene.display.x, scene.display.y));
     printField("reflectance", describeReflectance(scene.reflectance));
 }
@@ -148,7 +149,7 @@ void printMaterials(const Scene& scene) {
 }
 
 /// Which material, in which channel, returns the most of the light that meets it.
-void printEnergy(const Scene& scene) {
+void printEnergy(const LoadedScene& scene) {
     const LargestFactor largest = largestFactor(scene);
     fmt::print("\n");
     printField("energy", fmt::format("mean albedo {} by area", colour(meanAlbedo(scene))));
@@ -157,13 +158,13 @@ void printEnergy(const Scene& scene) {
     if (largest.mayGrow) {
         printField("", "that is as much as arrives or more: the series of bounces may grow without end,");
         printField("", fmt::format("and the picture is that of a stated number of bounces (here {})",
-                                   scene.render.bounces));
+                                   scene.settings.bounces));
     }
 }
 
-void printInfo(const Scene& scene, const nlohmann::ordered_json& lamp) {
+void printInfo(const LoadedScene& scene, const nlohmann::ordered_json& lamp) {
     printField("scene", printable(scene.source.string()));
-    printField("hash", scene.hash);
+    printField("hash", hashScene(scene));
     printGeometry(scene);
     printView(scene);
     printLights(scene, lamp);
@@ -193,7 +194,7 @@ void addInfoCommand(CLI::App& app) {
     command->callback([options] {
         SceneChoices choices = options->view.choices();
         if (options->strict) choices.reading = Reading::kStrict;
-        Scene scene = loadScene(options->scene, choices);
+        LoadedScene scene = loadScene(options->scene, choices);
         const nlohmann::ordered_json lamp = addedLamp(scene);
         removeLamp(scene);
         if (options->json) {

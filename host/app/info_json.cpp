@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "host/scene/energy.h"
+#include "host/scene/hash.h"
 
 namespace duolux {
 
@@ -153,7 +154,7 @@ LargestFactor largestFactor(const Scene& scene) {
     return largest;
 }
 
-Json infoJson(const Scene& scene, const Json& lamp) {
+Json infoJson(const LoadedScene& scene, const Json& lamp) {
     const Geometry& geometry = scene.geometry;
     const Bounds bounds = boundsOf(geometry);
     const EmitterSummary lights = summariseEmitters(scene);
@@ -161,7 +162,7 @@ Json infoJson(const Scene& scene, const Json& lamp) {
     Json info;
     info["version"] = 1;
     info["scene"] = scene.source.string();
-    info["hash"] = scene.hash;
+    info["hash"] = hashScene(scene);
     info["triangles"] = geometry.triangles.size();
     info["vertices"] = geometry.positions.size();
     info["smooth_triangles"] = smoothTriangles(geometry);
@@ -169,12 +170,12 @@ Json infoJson(const Scene& scene, const Json& lamp) {
     info["origin"] = toJson(scene.origin);
     info["geometry_bytes"] = memoryOf(geometry);
     info["camera"] = cameraOf(scene);
-    info["film"] = {{"width", scene.render.width}, {"height", scene.render.height}};
-    info["render"] = {{"spp", scene.render.spp},
-                      {"bounces", scene.render.bounces},
-                      {"seed", scene.render.seed},
-                      {"sampler", nameOf(scene.render.sampler)},
-                      {"integrator", nameOf(scene.render.integrator)}};
+    info["film"] = {{"width", scene.settings.width}, {"height", scene.settings.height}};
+    info["render"] = {{"spp", scene.settings.spp},
+                      {"bounces", scene.settings.bounces},
+                      {"seed", scene.settings.seed},
+                      {"sampler", nameOf(scene.settings.sampler)},
+                      {"integrator", nameOf(scene.settings.integrator)}};
     info["display"] = {number(scene.display.x), number(scene.display.y)};
     info["reflectance"] = describeReflectance(scene.reflectance);
     info["lights"] = {

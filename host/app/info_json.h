@@ -8,7 +8,7 @@
 namespace duolux {
 
 /// All that `duolux info` tells of a scene, for scripts. `lamp`: of addedLamp().
-nlohmann::ordered_json infoJson(const Scene& scene, const nlohmann::ordered_json& lamp);
+nlohmann::ordered_json infoJson(const LoadedScene& scene, const nlohmann::ordered_json& lamp);
 
 /// The lamp that was added to a scene, as an entry of a scene file's "lights"; null if there is none.
 nlohmann::ordered_json addedLamp(const Scene& scene);

@@ -67,8 +67,7 @@ struct Overrides {
         return choices;
     }
 
-    void applyTo(Scene& scene, const RenderOptions& options) const {
-        RenderSettings& settings = scene.render;
+    void applyTo(RenderSettings& settings, const RenderOptions& options) const {
         settings.sampler = sampler.value_or(settings.sampler);
         settings.integrator = integrator.value_or(settings.integrator);
         settings.spp = options.spp.value_or(settings.spp);
@@ -99,20 +98,20 @@ std::string percent(double part, double whole) {
     return value < 10.0 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
 }
 
-const char* samplesName(const Scene& scene) {
-    return scene.render.integrator == Integrator::kLight ? "light paths" : "samples";
+const char* samplesName(const RenderSettings& settings) {
+    return settings.integrator == Integrator::kLight ? "light paths" : "samples";
 }
 
-std::uint64_t samplesInAll(const Scene& scene, const RenderControl& control) {
-    return std::uint64_t{scene.render.width} * scene.render.height * (scene.render.spp - control.firstSample);
+std::uint64_t samplesInAll(const RenderSettings& settings, const RenderControl& control) {
+    return std::uint64_t{settings.width} * settings.height * (settings.spp - control.firstSample);
 }
 
 /// Warnings about a finished render.
-std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl& control,
+std::vector<std::string> resultWarnings(const RenderSettings& settings, const RenderControl& control,
                                         const RenderOutput& output, bool failed) {
     const RenderStatistics& statistics = output.statistics;
     std::vector<std::string> warnings;
-    const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
+    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
     if (statistics.gaps) {
         warnings.emplace_back(
             "the samples of some pixels have gaps: no checkpoint is written, and an earlier one is kept");
@@ -121,14 +120,14 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl&
         const auto taken = static_cast<double>(output.film.totalSamples() + output.film.lightPaths());
         warnings.push_back(fmt::format("stopped at the time limit after {:.4g} of {} {} per pixel",
                                        taken / static_cast<double>(pixels),
-                                       scene.render.spp - control.firstSample, samplesName(scene)));
+                                       settings.spp - control.firstSample, samplesName(settings)));
     }
     if (statistics.cutOffByBounces()) {
         warnings.push_back(fmt::format(
             "the limit of {} cuts light off: the last bounce added {} of the image's radiance, the bounce "
             "before "
             "it {}; the picture shows only light of up to this number of bounces",
-            scene.render.bounces == 1 ? "1 bounce" : fmt::format("{} bounces", scene.render.bounces),
+            settings.bounces == 1 ? "1 bounce" : fmt::format("{} bounces", settings.bounces),
             percent(statistics.lastBounceRadiance, statistics.meanRadiance),
             percent(statistics.previousBounceRadiance, statistics.meanRadiance)));
     }
@@ -139,9 +138,9 @@ std::vector<std::string> resultWarnings(const Scene& scene, const RenderControl&
     return warnings;
 }
 
-DirectLight chooseDirectLight(const RenderOptions& options, const Scene& scene) {
+DirectLight chooseDirectLight(const RenderOptions& options, const RenderSettings& settings) {
     if (options.directLight.empty()) return DirectLight::kAuto;
-    if (scene.render.integrator == Integrator::kLight) {
+    if (settings.integrator == Integrator::kLight) {
         throw UsageError(
             "--direct-light applies only to --integrator path; the light tracer does not sample direct "
             "light");
@@ -152,9 +151,9 @@ DirectLight chooseDirectLight(const RenderOptions& options, const Scene& scene) 
 
 /// Throws UsageError if layers are asked for that would not be filled or not be kept.
 void requireUseOfLayers(const RenderOptions& options, const std::vector<std::string>& outputs,
-                        const Scene& scene) {
+                        const RenderSettings& settings) {
     if (options.aov.empty()) return;
-    if (scene.render.integrator == Integrator::kLight) {
+    if (settings.integrator == Integrator::kLight) {
         throw UsageError(fmt::format(
             "--aov {}: the light tracer traces no camera rays; expected --integrator path", options.aov));
     }
@@ -166,37 +165,37 @@ void requireUseOfLayers(const RenderOptions& options, const std::vector<std::str
 
 /// Chooses the samples to trace: those of --sample-range, or of the checkpoint, or all.
 void chooseRange(const RenderOptions& options, const Overrides& overrides,
-                 const std::optional<Checkpoint>& resumed, Scene& scene, RenderControl& control) {
+                 const std::optional<Checkpoint>& resumed, RenderSettings& settings, RenderControl& control) {
     if (overrides.range) {
         const auto [first, end] = *overrides.range;
-        if (end > scene.render.spp) {
+        if (end > settings.spp) {
             throw UsageError(
                 fmt::format("--sample-range {}: there are {} samples per pixel; expected A:B with "
                             "0 <= A < B <= {}, or more --spp",
-                            options.sampleRange, scene.render.spp, scene.render.spp));
+                            options.sampleRange, settings.spp, settings.spp));
         }
         control.firstSample = first;
-        scene.render.spp = end;
+        settings.spp = end;
     } else if (resumed) {
         control.firstSample = resumed->origin.firstSample;
-        if (!options.spp) scene.render.spp = resumed->origin.settings.spp;
-        if (scene.render.spp <= control.firstSample) {
+        if (!options.spp) settings.spp = resumed->origin.settings.spp;
+        if (settings.spp <= control.firstSample) {
             throw UsageError(fmt::format("--spp {}: {} is a part that starts at sample {}; expected more",
-                                         scene.render.spp, options.resume, control.firstSample));
+                                         settings.spp, options.resume, control.firstSample));
         }
     }
     // Samples that have been traced are kept.
     if (resumed) {
         const std::uint32_t there = resumed->origin.firstSample + samplesTaken(resumed->state.film);
-        if (there > scene.render.spp) {
+        if (there > settings.spp) {
             warn(fmt::format("{} holds samples up to {} of every pixel; they are kept", options.resume,
                              there));
-            scene.render.spp = there;
+            settings.spp = there;
         }
     }
 }
 
-void prepareResume(const RenderOptions& options, const Checkpoint& resumed, const Scene& scene,
+void prepareResume(const RenderOptions& options, const Checkpoint& resumed, const LoadedScene& scene,
                    RenderControl& control) {
     if (resumed.origin.firstSample != control.firstSample) {
         throw InputError(
@@ -205,7 +204,8 @@ void prepareResume(const RenderOptions& options, const Checkpoint& resumed, cons
             "expected a --sample-range with the same first sample");
     }
     // By default, direct light is computed as in the checkpoint.
-    FilmOrigin wanted = originOf(scene, control.firstSample, control.directLight == DirectLight::kClosedForm);
+    FilmOrigin wanted =
+        originOf(scene, scene.settings, control.firstSample, control.directLight == DirectLight::kClosedForm);
     if (control.directLight == DirectLight::kAuto) {
         wanted.directLight = control.directLight = resumed.origin.directLight;
     }
@@ -214,7 +214,7 @@ void prepareResume(const RenderOptions& options, const Checkpoint& resumed, cons
 }
 
 /// The render's output, even if the device failed before the end.
-RenderOutput renderWhatCanBe(Device& device, const Scene& scene, const RenderControl& control,
+RenderOutput renderWhatCanBe(Device& device, const LoadedScene& scene, const RenderControl& control,
                              std::optional<RenderFailure>& failure) {
     try {
         return render(device, scene, control);
@@ -235,7 +235,7 @@ void requireNoOtherFile(const std::string& checkpoint) {
                     checkpoint));
 }
 
-void warnOfMirrors(Scene& scene) {
+void warnOfMirrors(LoadedScene& scene) {
     const std::vector<bool> used = usedMaterials(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (!used[i] || !isMirror(scene.materials[i])) continue;
@@ -267,21 +267,21 @@ void runRender(const RenderOptions& options) {
     if (options.strict) choices.reading = Reading::kStrict;
 
     StageSeconds seconds;
-    Scene scene = loadScene(options.scene, choices);
+    LoadedScene scene = loadScene(options.scene, choices);
     checkNotRead(files, scene.files);
     requireNoOtherFile(options.checkpoint);
-    overrides.applyTo(scene, options);
-    requireUseOfLayers(options, outputs, scene);
-    if (scene.render.integrator == Integrator::kLight) warnOfMirrors(scene);
+    overrides.applyTo(scene.settings, options);
+    requireUseOfLayers(options, outputs, scene.settings);
+    if (scene.settings.integrator == Integrator::kLight) warnOfMirrors(scene);
     for (const Warning& warning : scene.warnings)
         warn(warning.text);
     RenderControl control;
     control.timeLimit = options.timeLimit;
     control.tuning = options.tuning.choice();
-    control.directLight = chooseDirectLight(options, scene);
+    control.directLight = chooseDirectLight(options, scene.settings);
     std::optional<Checkpoint> resumed;
     if (!options.resume.empty()) resumed = readCheckpoint(options.resume);
-    chooseRange(options, overrides, resumed, scene, control);
+    chooseRange(options, overrides, resumed, scene.settings, control);
     if (resumed) prepareResume(options, *resumed, scene, control);
     seconds.load = secondsSince(start);
 
@@ -290,9 +290,9 @@ void runRender(const RenderOptions& options) {
     Progress progress(style);
     // A large film takes seconds to prepare.
     constexpr std::uint64_t kManyPixels = 1u << 24;
-    const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
+    const std::uint64_t pixels = std::uint64_t{scene.settings.width} * scene.settings.height;
     if (!resumed && (style == Progress::Style::kBar || pixels >= kManyPixels)) {
-        progress.begin(static_cast<double>(samplesInAll(scene, control)));
+        progress.begin(static_cast<double>(samplesInAll(scene.settings, control)));
     }
     control.onStart = deferSignals;
     control.onProgress = [&](const RenderProgress& p) {
@@ -302,7 +302,7 @@ void runRender(const RenderOptions& options) {
         return !stopStatus();
     };
     const auto origin = [&](const RenderStatistics& statistics) {
-        return originOf(scene, control.firstSample, statistics.directLightInClosedForm);
+        return originOf(scene, scene.settings, control.firstSample, statistics.directLightInClosedForm);
     };
     if (!options.checkpoint.empty()) {
         control.onCheckpoint = [&](const Film& film, const RenderStatistics& statistics) {
@@ -319,7 +319,7 @@ void runRender(const RenderOptions& options) {
     deferSignals();  // even if all samples were resumed
     progress.finish();
 
-    std::vector<std::string> warnings = resultWarnings(scene, control, output, failure.has_value());
+    std::vector<std::string> warnings = resultWarnings(scene.settings, control, output, failure.has_value());
     // The warning requires at least one sample of every pixel.
     if (!failure && output.film.totalSamples() + output.film.lightPaths() >= output.film.samples().size()) {
         const bool clips = std::any_of(outputs.begin(), outputs.end(), isPngPath);
@@ -350,7 +350,7 @@ void runRender(const RenderOptions& options) {
     }
     const std::string there =
         fmt::format("{} of {} {}", output.film.totalSamples() + output.film.lightPaths(),
-                    samplesInAll(scene, control), samplesName(scene));
+                    samplesInAll(scene.settings, control), samplesName(scene.settings));
     if (failure) {
         write.sayFailures();
         throw MachineError(fmt::format("{}; {} {}", failure->what(),

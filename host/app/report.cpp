@@ -6,6 +6,7 @@
 
 #include "host/base/version.h"
 #include "host/gpu/json.h"
+#include "host/scene/hash.h"
 
 namespace duolux {
 
@@ -23,32 +24,32 @@ double perSecond(std::uint64_t count, double seconds) {
 
 }  // namespace
 
-std::string renderReport(const Scene& scene, std::uint32_t firstSample, const DeviceInfo& device,
+std::string renderReport(const LoadedScene& scene, std::uint32_t firstSample, const DeviceInfo& device,
                          const RenderStatistics& statistics, const StageSeconds& seconds) {
     const std::uint64_t rays = statistics.cameraRays + statistics.lightRays + statistics.bounceRays +
                                statistics.shadowRays + statistics.emitterRays;
-    const bool shot = scene.render.integrator == Integrator::kLight;
+    const bool shot = scene.settings.integrator == Integrator::kLight;
     const char* directLight =
         shot ? "light paths" : (statistics.directLightInClosedForm ? "closed-form" : "sampled");
     nlohmann::ordered_json report;
     report["version"] = 1;
     report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};
     report["scene"] = {{"file", scene.source.string()},
-                       {"hash", scene.hash},
+                       {"hash", hashScene(scene)},
                        {"triangles", scene.geometry.triangles.size()},
                        {"materials", scene.materials.size()},
                        {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}}};
-    report["settings"] = {{"width", scene.render.width},
-                          {"height", scene.render.height},
-                          {"spp", scene.render.spp - firstSample},
-                          {"sample_range", {firstSample, scene.render.spp}},
-                          {"bounces", scene.render.bounces},
+    report["settings"] = {{"width", scene.settings.width},
+                          {"height", scene.settings.height},
+                          {"spp", scene.settings.spp - firstSample},
+                          {"sample_range", {firstSample, scene.settings.spp}},
+                          {"bounces", scene.settings.bounces},
                           {"effective_bounces", statistics.effectiveBounces},
-                          {"seed", scene.render.seed},
-                          {"sampler", nameOf(scene.render.sampler)},
-                          {"integrator", nameOf(scene.render.integrator)},
+                          {"seed", scene.settings.seed},
+                          {"sampler", nameOf(scene.settings.sampler)},
+                          {"integrator", nameOf(scene.settings.integrator)},
                           {"direct_light", directLight},
-                          {"layers", namesOf(scene.render.layers)},
+                          {"layers", namesOf(scene.settings.layers)},
                           {"reflectance", describeReflectance(scene.reflectance)}};
     report["device"] = toJson(device);
     report["tuning"] = toJson(statistics.tuning);
@@ -61,7 +62,7 @@ std::string renderReport(const Scene& scene, std::uint32_t firstSample, const De
                          {"render", statistics.renderSeconds},
                          {"write", seconds.write},
                          {"total", seconds.total}};
-    report["device_seconds"] = {{nameOf(scene.render.integrator), statistics.deviceSeconds}};
+    report["device_seconds"] = {{nameOf(scene.settings.integrator), statistics.deviceSeconds}};
     report["dispatches"] = {{"count", statistics.dispatches},
                             {"longest_seconds", statistics.longestDispatchSeconds},
                             {"cut_short", statistics.dispatchesCutShort}};

@@ -14,7 +14,7 @@ struct StageSeconds {
 };
 
 /// The statistics of a render as JSON (format version 1), with a newline at the end.
-std::string renderReport(const Scene& scene, std::uint32_t firstSample, const DeviceInfo& device,
+std::string renderReport(const LoadedScene& scene, std::uint32_t firstSample, const DeviceInfo& device,
                          const RenderStatistics& statistics, const StageSeconds& seconds);
 
 }  // namespace duolux

@@ -54,7 +54,7 @@ struct SceneSuite::State {
     std::string name;
     std::filesystem::path path, folder;
     SuiteOptions options;
-    Scene scene;
+    LoadedScene scene;
     DeviceScene deviceScene;
     std::vector<RaySet> raySets;
     std::vector<std::unique_ptr<TraceKernel>> kernels;
@@ -68,7 +68,7 @@ struct SceneSuite::State {
           folder(std::move(folder_)),
           options(std::move(options_)),
           scene(loadScene(path)),
-          deviceScene(uploadScene(device, scene, options.tuning)) {}
+          deviceScene(uploadScene(device, scene, Integrator::kPath, options.tuning)) {}
 
     bool wanted(const std::string& what) const { return isChosen(name + "/" + what, options.only); }
 
@@ -138,11 +138,11 @@ void SceneSuite::State::addRenders() {
             add(fmt::format("render/{}/{}", preset.name, nameOf(integrator)), "Msamples/s", samples * 1e-6,
                 [this, &preset, integrator] {
                     scene.reflectance = *presetReflectance(preset.name);
-                    scene.render.width = options.width;
-                    scene.render.height = options.height;
-                    scene.render.spp = options.spp;
-                    scene.render.bounces = std::min(options.bounces, preset.bounces);
-                    scene.render.integrator = integrator;
+                    scene.settings.width = options.width;
+                    scene.settings.height = options.height;
+                    scene.settings.spp = options.spp;
+                    scene.settings.bounces = std::min(options.bounces, preset.bounces);
+                    scene.settings.integrator = integrator;
                     RenderControl control;
                     control.tuning = options.tuning;
                     const RenderStatistics statistics = render(device, scene, control).statistics;
@@ -169,9 +169,9 @@ void SceneSuite::State::addFilm(const std::string& integrator, std::size_t pixel
 
 /// Adds the results of a finished dispatch to the film of the render.
 void SceneSuite::State::addFilms() {
-    scene.render.width = options.width;
-    scene.render.height = options.height;
-    scene.render.bounces = 1;
+    scene.settings.width = options.width;
+    scene.settings.height = options.height;
+    scene.settings.bounces = 1;
     const auto film = std::make_shared<Film>(options.width, options.height, 0x1p-30f);
 
     const auto pixels =
@@ -179,16 +179,16 @@ void SceneSuite::State::addFilms() {
     if (wanted("film/path")) {
         const auto count =
             static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxPixels));
-        const auto gathering =
-            std::make_shared<PathKernel>(device, deviceScene, scene, *pixels, count, false);
+        const auto gathering = std::make_shared<PathKernel>(
+            RenderInputs{device, deviceScene, scene, scene.settings}, *pixels, count, false);
         gathering->submit(0, {0, count, 0, 1}, film->quantum());
         gathering->wait(0);
         addFilm("path", count, sizeof(shared::PixelResult),
                 [pixels, gathering, film] { gathering->addTo(*film, 0); });
     }
     if (wanted("film/light")) {
-        const auto shooting =
-            std::make_shared<LightKernel>(device, deviceScene, scene, 1, LightKernel::Limits{});
+        const auto shooting = std::make_shared<LightKernel>(
+            RenderInputs{device, deviceScene, scene, scene.settings}, 1, LightKernel::Limits{});
         addFilm("light", pixels->size(), sizeof(Film::PixelSum), [shooting, film] {
             bool partly = false;
             shooting->takeFilm(*film, partly);
@@ -205,14 +205,16 @@ void SceneSuite::State::addHost() {
     add("build", "Mtriangles/s", triangles * 1e-6, [this] {
         // The driver builds its tree from uploaded buffers.
         if (deviceScene.tuning.layout == Layout::kRayQuery) {
-            return BenchTimes{uploadScene(device, scene, options.tuning).buildSeconds, 0.0};
+            return BenchTimes{uploadScene(device, scene, Integrator::kPath, options.tuning).buildSeconds,
+                              0.0};
         }
         return BenchTimes{secondsOf([this] { buildWideBvh(scene.geometry); }), 0.0};
     });
     const auto bytes = static_cast<double>(deviceScene.deviceBytes());
     add("upload", "MB/s", bytes * 1e-6,
         [this] {
-            return BenchTimes{uploadScene(device, scene, options.tuning).uploadSeconds, 0.0};
+            return BenchTimes{uploadScene(device, scene, Integrator::kPath, options.tuning).uploadSeconds,
+                              0.0};
         },
         {{"bytes_per_triangle", bytes / triangles}});
 }

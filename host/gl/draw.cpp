@@ -152,10 +152,11 @@ struct GlScene::Objects {
     GLuint program = 0;
 };
 
-GlScene::GlScene(const Scene& scene)
+GlScene::GlScene(const Scene& scene, const RenderSettings& settings)
     : scene_(scene),
-      objects_(std::make_unique<Objects>(static_cast<GLsizei>(scene.render.width),
-                                         static_cast<GLsizei>(scene.render.height))),
+      settings_(settings),
+      objects_(std::make_unique<Objects>(static_cast<GLsizei>(settings.width),
+                                         static_cast<GLsizei>(settings.height))),
       mesh_(makeGlMesh(scene)) {
     statistics_.vertices = mesh_.vertices.size();
     glGenBuffers(3, objects_->buffers.data());
@@ -172,7 +173,7 @@ GlScene::GlScene(const Scene& scene)
     glVertexPointer(3, GL_FLOAT, sizeof(GlVertex), offset(offsetof(GlVertex, position)));
     glNormalPointer(GL_FLOAT, sizeof(GlVertex), offset(offsetof(GlVertex, normal)));
 
-    glViewport(0, 0, static_cast<GLsizei>(scene.render.width), static_cast<GLsizei>(scene.render.height));
+    glViewport(0, 0, static_cast<GLsizei>(settings.width), static_cast<GLsizei>(settings.height));
     glFrontFace(GL_CCW);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     // Colours beyond 1 are clamped when the picture is displayed, not before it is averaged.
@@ -333,13 +334,13 @@ std::vector<glm::vec3> GlScene::draw(std::span<const PointLight> lights, const D
     glClear(GL_COLOR_BUFFER_BIT);
     for (std::uint32_t pass = 0; pass < options.passes; ++pass) {
         const glm::vec2 jitter = jitterOf(pass);
-        loadMatrix(GL_PROJECTION, projectionMatrix(scene_, jitter, options.window));
+        loadMatrix(GL_PROJECTION, projectionMatrix(scene_, settings_, jitter, options.window));
         loadMatrix(GL_MODELVIEW, viewMatrix(scene_.camera));
         drawOnce(lights, options.lighting);
         addTo(objects_->sum, objects_->image);
     }
-    const std::uint32_t width = scene_.render.width;
-    const std::uint32_t height = scene_.render.height;
+    const std::uint32_t width = settings_.width;
+    const std::uint32_t height = settings_.height;
     std::vector<glm::vec3> rows(std::size_t{width} * height);
     glBindFramebuffer(GL_FRAMEBUFFER, objects_->sum.framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -39,7 +39,7 @@ struct DrawStatistics {
 class GlScene {
   public:
     /// Throws MachineError if the driver cannot draw to images of floats.
-    explicit GlScene(const Scene& scene);
+    GlScene(const Scene& scene, const RenderSettings& settings);
     ~GlScene();
     GlScene(const GlScene&) = delete;
     GlScene& operator=(const GlScene&) = delete;
@@ -59,6 +59,7 @@ class GlScene {
     void drawRanges(const std::function<void(const Material&)>& setMaterial);
 
     const Scene& scene_;
+    const RenderSettings& settings_;
     std::unique_ptr<Objects> objects_;
     GlMesh mesh_;
     DrawStatistics statistics_;

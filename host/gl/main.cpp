@@ -19,6 +19,7 @@
 #include "host/gl/context.h"
 #include "host/gl/draw.h"
 #include "host/gl/opengl.h"
+#include "host/scene/hash.h"
 #include "host/view/load.h"
 
 namespace duolux {
@@ -46,16 +47,16 @@ Lighting lightingOf(const std::string& name) {
     return name == "wireframe" ? Lighting::kWireframe : Lighting::kFixedFunction;
 }
 
-void writeImages(WriteAll& write, const Arguments& arguments, const Scene& scene,
+void writeImages(WriteAll& write, const Arguments& arguments, const LoadedScene& scene,
                  std::vector<glm::vec3> pixels) {
-    RadianceImage image{scene.render.width, scene.render.height, {}, std::move(pixels)};
+    RadianceImage image{scene.settings.width, scene.settings.height, {}, std::move(pixels)};
     image.invisible.assign(image.visible.size(), glm::vec3(0.0f));
     ImageOptions options;
     options.exposure = arguments.exposure;
     options.metadata = {{"Software", fmt::format("duolux-gl {}", versionString())},
                         {"lights", arguments.lights},
                         {"lighting", arguments.lighting},
-                        {"scene", scene.hash}};
+                        {"scene", hashScene(scene)}};
     for (const std::string& output : arguments.outputs)
         write(output, [&](const std::filesystem::path& path) { writeImage(path, image, options); });
 }
@@ -69,14 +70,14 @@ void run(const Arguments& arguments) {
         files.push_back({"--report", arguments.report, false});
     checkOutputs(files, {arguments.scene});
     const Clock::time_point start = Clock::now();
-    Scene scene = loadScene(arguments.scene);
+    LoadedScene scene = loadScene(arguments.scene);
     checkNotRead(files, scene.files);
     for (const Warning& warning : scene.warnings)
         say(fmt::format("duolux-gl: warning: {}", warning.text));
     if (!arguments.size.empty()) {
         const glm::uvec2 size = parseSize(arguments.size);
-        scene.render.width = size.x;
-        scene.render.height = size.y;
+        scene.settings.width = size.x;
+        scene.settings.height = size.y;
     }
     if (!scene.geometry.colours.empty()) {
         throw InputError(arguments.scene, "", "has colours of vertices, which duolux-gl does not draw",
@@ -116,7 +117,7 @@ void run(const Arguments& arguments) {
     const GlContext context;
     const double contextSeconds = secondsSince(contextStart);
     const Clock::time_point uploadStart = Clock::now();
-    GlScene glScene(scene);
+    GlScene glScene(scene, scene.settings);
     glFinish();
     const double uploadSeconds = secondsSince(uploadStart);
     const Clock::time_point drawStart = Clock::now();
@@ -130,11 +131,11 @@ void run(const Arguments& arguments) {
     report["version"] = 1;
     report["program"] = {{"version", versionString()}, {"commit", commitString()}};
     report["scene"] = {{"file", arguments.scene},
-                       {"hash", scene.hash},
+                       {"hash", hashScene(scene)},
                        {"triangles", scene.geometry.triangles.size()},
                        {"vertices", glScene.statistics().vertices}};
-    report["settings"] = {{"width", scene.render.width},
-                          {"height", scene.render.height},
+    report["settings"] = {{"width", scene.settings.width},
+                          {"height", scene.settings.height},
                           {"passes", arguments.passes},
                           {"lights", lights.size()},
                           {"lighting", arguments.lighting}};

@@ -19,7 +19,8 @@ glm::mat4 viewMatrix(const Camera& camera) {
     return glm::lookAt(camera.position, camera.target, camera.up);
 }
 
-glm::mat4 projectionMatrix(const Scene& scene, glm::vec2 jitter, const std::array<float, 4>& window) {
+glm::mat4 projectionMatrix(const Scene& scene, const RenderSettings& settings, glm::vec2 jitter,
+                           const std::array<float, 4>& window) {
     const Camera& camera = scene.camera;
     const Bounds bounds = boundsOf(scene.geometry);
     const glm::vec3 forward = glm::normalize(camera.target - camera.position);
@@ -37,14 +38,14 @@ glm::mat4 projectionMatrix(const Scene& scene, glm::vec2 jitter, const std::arra
     farthest = std::max(farthest, size * 1e-3f) * 1.001f;
     nearest = std::max(nearest * 0.999f, farthest * 1e-4f);
 
-    const float aspect = static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height);
+    const float aspect = settings.aspect();
     const bool parallel = camera.type == CameraType::kOrthographic;
     const float halfHeight =
         parallel ? 0.5f * camera.height : std::tan(glm::radians(camera.vfov) / 2.0f) * nearest;
     const float halfWidth = halfHeight * aspect;
     // A fragment is computed at the centre of its pixel: the image is moved by what the sample is off it.
-    const glm::vec2 moved = (jitter - 0.5f) / glm::vec2(scene.render.width, scene.render.height) *
-                            glm::vec2(window[2], window[3]);
+    const glm::vec2 moved =
+        (jitter - 0.5f) / glm::vec2(settings.width, settings.height) * glm::vec2(window[2], window[3]);
     const auto x = [&](float fraction) { return (2.0f * (fraction + moved.x) - 1.0f) * halfWidth; };
     const auto y = [&](float fraction) { return (1.0f - 2.0f * (fraction + moved.y)) * halfHeight; };
     if (parallel) {

@@ -19,6 +19,7 @@ glm::mat4 viewMatrix(const Camera& camera);
 /// OpenGL's clip coordinates, such that the centre of a pixel of the image shows what `jitter` (in pixels
 /// from the top left corner of the pixel) does; of the part of the image that `window` (left, top, width,
 /// height as fractions) tells.
-glm::mat4 projectionMatrix(const Scene& scene, glm::vec2 jitter, const std::array<float, 4>& window);
+glm::mat4 projectionMatrix(const Scene& scene, const RenderSettings& settings, glm::vec2 jitter,
+                           const std::array<float, 4>& window);
 
 }  // namespace duolux

@@ -145,9 +145,8 @@ bool needsEmitterTree(const TransportTraits& traits, std::span<const std::uint32
 }
 
 EmitterTable emitterTableOf(const Scene& scene, std::span<const std::uint32_t> emitters,
-                            const TransportTraits& traits) {
-    return buildEmitterTable(scene, emitters,
-                             traits.secondColumn || scene.render.integrator == Integrator::kLight);
+                            const TransportTraits& traits, Integrator integrator) {
+    return buildEmitterTable(scene, emitters, traits.secondColumn || integrator == Integrator::kLight);
 }
 
 bool hasClosedForm(const TransportTraits& traits, bool smoothNormals, std::size_t emitters) {
@@ -234,8 +233,8 @@ void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Sc
 namespace {
 
 /// All but the tree over all triangles, which took `buildSeconds` to build.
-DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoice& choice, WideBvh tree,
-                     double buildSeconds) {
+DeviceScene assemble(const Device& device, const Scene& scene, Integrator integrator,
+                     const TuningChoice& choice, WideBvh tree, double buildSeconds) {
     const Geometry& geometry = scene.geometry;
     const TransportTraits traits = analyseTransport(scene);
     Tuning tuning = chooseTuning(device.info(), choice);
@@ -246,8 +245,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
     const bool emitterTree = needsEmitterTree(traits, emitters);
     const std::span<const std::uint32_t> inTree =
         emitterTree ? std::span<const std::uint32_t>(emitters) : std::span<const std::uint32_t>();
-    const Trees trees =
-        rayQueries ? listTriangles(geometry, inTree) : joinTrees(geometry, tree, inTree);
+    const Trees trees = rayQueries ? listTriangles(geometry, inTree) : joinTrees(geometry, tree, inTree);
     tuning.layout = layoutThatFits(device.info(), tuning.layout, choice, trees.largestBuffer());
     buildSeconds += secondsSince(start);
 
@@ -275,7 +273,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
             normals[2 * i + 1] = deviceNormals(geometry, pair.second, corners.turns[1]);
         }
     });
-    EmitterTable table = emitterTableOf(scene, emitters, traits);
+    EmitterTable table = emitterTableOf(scene, emitters, traits, integrator);
     if (surfaces.used()) {
         const std::vector<std::uint32_t> places = deviceTriangles(trees, geometry.triangles.size());
         for (std::size_t i = 0; i < emitters.size(); ++i) {
@@ -329,26 +327,29 @@ DeviceScene assemble(const Device& device, const Scene& scene, const TuningChoic
 
 }  // namespace
 
-DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice) {
+DeviceScene uploadScene(const Device& device, const Scene& scene, Integrator integrator,
+                        const TuningChoice& choice) {
     const auto start = std::chrono::steady_clock::now();
     WideBvh tree;
     if (chooseTuning(device.info(), choice).layout != Layout::kRayQuery)
         tree = buildWideBvh(scene.geometry, allTriangles(scene.geometry));
-    return assemble(device, scene, choice, std::move(tree), secondsSince(start));
+    return assemble(device, scene, integrator, choice, std::move(tree), secondsSince(start));
 }
 
-void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene) {
+void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene,
+                      Integrator integrator) {
     const TransportTraits traits = analyseTransport(scene);
     std::vector<std::uint32_t> emitters = emittingTriangles(scene);
     // Emitters are in a tree of their own, and first among surfaces that coincide.
     const bool sameTriangles = (deviceScene.emitterRoot != 0) == needsEmitterTree(traits, emitters) &&
                                emitters == deviceScene.emitters && !deviceScene.hasPlanes;
     if (!sameTriangles) {
-        deviceScene = assemble(device, scene, deviceScene.choice, std::move(deviceScene.tree), 0.0);
+        deviceScene =
+            assemble(device, scene, integrator, deviceScene.choice, std::move(deviceScene.tree), 0.0);
         return;
     }
     const auto start = std::chrono::steady_clock::now();
-    const EmitterTable table = emitterTableOf(scene, emitters, traits);
+    const EmitterTable table = emitterTableOf(scene, emitters, traits, integrator);
     deviceScene.traits = traits;
     deviceScene.closedFormApplies = hasClosedForm(traits, deviceScene.hasSmoothNormals, table.choices);
     deviceScene.emitterChoices = table.choices;

@@ -51,12 +51,14 @@ struct DeviceScene {
 /// checked for software drivers, which use the host's memory whatever they report.
 void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene);
 
-/// Builds the trees and uploads the scene. Throws MachineError if it does not fit the device, and UsageError
-/// if the device does not support the requested tuning.
-DeviceScene uploadScene(const Device& device, const Scene& scene, const TuningChoice& choice = {});
+/// Builds the trees and uploads the scene for one of the integrators. Throws MachineError if it does not fit
+/// the device, and UsageError if the device does not support the requested tuning.
+DeviceScene uploadScene(const Device& device, const Scene& scene, Integrator integrator = Integrator::kPath,
+                        const TuningChoice& choice = {});
 
-/// Brings the device up to date with a scene of the same geometry whose materials, reflectances and render
-/// settings may be others. The tree over all triangles is not built again. Throws as uploadScene.
-void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene);
+/// Brings the device up to date with a scene of the same geometry whose materials and reflectances may be
+/// others, and the integrator, too. The tree over all triangles is not built again. Throws as uploadScene.
+void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene,
+                      Integrator integrator);
 
 }  // namespace duolux

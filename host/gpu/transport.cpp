@@ -79,13 +79,11 @@ TransportTraits analyseTransport(const Scene& scene) {
         const unsigned crossed = set | transparent.after(set);
         const unsigned scattered = opaque.after(crossed | transparent.after(crossed));
         if (scattered == 0) break;
-        const bool forEver = scattered == set;
-        if (forEver || traits.effectiveBounces == scene.render.bounces) {
-            traits.effectiveBounces = scene.render.bounces;
-            traits.limitedByBounces = true;
+        if (scattered == set) {
+            traits.mostScatterings = TransportTraits::kUnlimited;
             break;
         }
-        ++traits.effectiveBounces;
+        ++traits.mostScatterings;
         set = scattered;
     }
     return traits;

@@ -23,10 +23,10 @@ struct TransportTraits {
     bool visibleCrosses = false;
     bool oneReflectance = true;  ///< all materials share one O and T
     std::uint32_t lobes = 0;     ///< sum of shared::kLobe...: what the BSDFs consist of
-    /// The largest number of scattering events that can contribute to a pixel: the scene's `bounces`, or
-    /// fewer if the matrices end every path earlier (1 for `local` and `one-bounce`).
-    std::uint32_t effectiveBounces = 0;
-    bool limitedByBounces = false;  ///< paths with more than `bounces` events could contribute
+    /// The largest number of scattering events after which a path can still contribute to a pixel (1 for
+    /// `local` and `one-bounce`), or kUnlimited.
+    std::uint32_t mostScatterings = 0;
+    static constexpr std::uint32_t kUnlimited = 0xffffffffu;
 };
 
 TransportTraits analyseTransport(const Scene& scene);

@@ -236,7 +236,7 @@ std::set<std::string> unusedMaterials(const SceneContents& contents) {
     return names;
 }
 
-void readMaterials(const JsonNode& node, const std::set<std::string>& unused, Scene& scene) {
+void readMaterials(const JsonNode& node, const std::set<std::string>& unused, LoadedScene& scene) {
     std::unordered_map<std::string, std::vector<std::size_t>> byName;
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         byName[scene.materials[i].name].push_back(i);
@@ -274,14 +274,14 @@ SceneFile readJsonScene(const fs::path& path, Reading reading) {
         {"duolux", "camera", "film", "render", "display", "reflectance", "objects", "materials", "lights"});
     root.require("duolux", "expected \"duolux\": 1, the version of the format").integer(1, 1);
 
-    Scene scene;
+    LoadedScene scene;
     scene.source = path;
     scene.files.push_back(path);
     CameraChoice camera;
     if (const auto node = root.find("camera")) camera = readCamera(*node);
-    if (const auto film = root.find("film")) readFilm(*film, scene.render);
+    if (const auto film = root.find("film")) readFilm(*film, scene.settings);
     const auto render = root.find("render");
-    if (render) readRender(*render, scene.render);
+    if (render) readRender(*render, scene.settings);
     if (const auto display = root.find("display")) scene.display = readDisplay(*display);
     const auto reflectance = root.find("reflectance");
     scene.reflectance = reflectance ? readReflectance(*reflectance) : *presetReflectance("global");

@@ -99,7 +99,7 @@ class Losses {
             edge_ = edge;
         }
     }
-    void warn(Scene& scene) const {
+    void warn(LoadedScene& scene) const {
         if (count_ == 0) return;
         scene.warnings.push_back(fmt::format(
             "{}{}: single precision moves vertices by up to {:.2g}; typical edges are {:.2g} long", first_,
@@ -118,7 +118,7 @@ glm::dvec3 originOf(const SceneContents& contents) {
     return originFor(boundsOf(contents), samplesOf(contents));
 }
 
-void appendObjects(SceneContents& contents, Scene& scene) {
+void appendObjects(SceneContents& contents, LoadedScene& scene) {
     Composer composer(scene);
     Losses losses;
     for (Mesh& mesh : contents.meshes)
@@ -149,7 +149,7 @@ void appendObjects(SceneContents& contents, Scene& scene) {
     losses.warn(scene);
 }
 
-void appendLights(const SceneContents& contents, Scene& scene) {
+void appendLights(const SceneContents& contents, LoadedScene& scene) {
     Composer composer(scene);
     Losses losses;
     const auto place = [&](const JsonNode& node, const glm::dvec3& inFile) {

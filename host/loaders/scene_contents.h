@@ -44,9 +44,9 @@ struct SceneContents {
 glm::dvec3 originOf(const SceneContents& contents);
 
 /// Moves the objects from the contents to a scene whose origin is set. Throws InputError.
-void appendObjects(SceneContents& contents, Scene& scene);
+void appendObjects(SceneContents& contents, LoadedScene& scene);
 
 /// The same for the lights.
-void appendLights(const SceneContents& contents, Scene& scene);
+void appendLights(const SceneContents& contents, LoadedScene& scene);
 
 }  // namespace duolux

@@ -41,7 +41,7 @@ const MeshFormat* meshFormatOf(const fs::path& path) {
 }
 
 SceneFile readMeshScene(const fs::path& path, Reading reading) {
-    Scene scene;
+    LoadedScene scene;
     scene.source = path;
     scene.reflectance = *presetReflectance("global");
     MaterialFiles files(reading);

@@ -14,7 +14,7 @@ namespace duolux {
 
 /// The content of a scene file.
 struct SceneFile {
-    Scene scene;                  ///< complete except for camera, hash and unspecified values
+    LoadedScene scene;            ///< complete except for camera and unspecified values
     CameraChoice camera;          ///< the specified parts of the camera
     std::size_t framedTriangles;  ///< number of leading triangles that a camera should show
     bool hasLights;               ///< whether the file has "lights", even an empty list

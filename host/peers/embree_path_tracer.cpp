@@ -70,12 +70,14 @@ float balance(float a, float b) {
 
 class PathTracer {
   public:
-    PathTracer(const EmbreeScene& embree, const Scene& scene, const EmitterTable& emitters)
+    PathTracer(const EmbreeScene& embree, const Scene& scene, const RenderSettings& settings,
+               const EmitterTable& emitters)
         : embree_(embree),
           scene_(scene),
+          settings_(settings),
           emitters_(emitters),
           densities_(scene.materials.size()),
-          plane_(imagePlane(scene.camera, scene.render.width, scene.render.height)) {
+          plane_(imagePlane(scene.camera, settings.width, settings.height)) {
         const std::vector<std::uint32_t> triangles = emittingTriangles(scene);
         for (std::size_t i = 0; i < triangles.size(); ++i)
             densities_[scene.geometry.materials[triangles[i]]] = emitters.records[i].density;
@@ -83,10 +85,10 @@ class PathTracer {
 
     vec3 pixel(std::uint32_t pixel) const {
         vec3 sum(0.0f);
-        Random random((std::uint64_t{scene_.render.seed} << 32) + pixel);
-        for (std::uint32_t s = 0; s < scene_.render.spp; ++s)
+        Random random((std::uint64_t{settings_.seed} << 32) + pixel);
+        for (std::uint32_t s = 0; s < settings_.spp; ++s)
             sum += sample(pixel, random);
-        return sum / static_cast<float>(scene_.render.spp);
+        return sum / static_cast<float>(settings_.spp);
     }
 
   private:
@@ -96,9 +98,9 @@ class PathTracer {
     };
 
     vec3 sample(std::uint32_t pixel, Random& random) const {
-        const vec2 size(scene_.render.width, scene_.render.height);
-        const float x = static_cast<float>(pixel % scene_.render.width) + random.uniform();
-        const float y = static_cast<float>(pixel / scene_.render.width) + random.uniform();
+        const vec2 size(settings_.width, settings_.height);
+        const float x = static_cast<float>(pixel % settings_.width) + random.uniform();
+        const float y = static_cast<float>(pixel / settings_.width) + random.uniform();
         auto [origin, direction] =
             cameraRay(scene_.camera, plane_, {x / size.x * 2.0f - 1.0f, 1.0f - y / size.y * 2.0f});
         vec3 radiance(0.0f);
@@ -123,7 +125,7 @@ class PathTracer {
                 radiance += throughput * emission * (scatterings > 0 ? balance(pdf, ofLight) : 1.0f);
             }
             const bool scatters = front || material.sides == Sides::kBoth;
-            if (scatterings >= scene_.render.bounces || !scatters || !(largest(material.baseColor) > 0.0f))
+            if (scatterings >= settings_.bounces || !scatters || !(largest(material.baseColor) > 0.0f))
                 return radiance;
             if (!front) normal = -normal;
             const vec3 extent = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
@@ -171,6 +173,7 @@ class PathTracer {
 
     const EmbreeScene& embree_;
     const Scene& scene_;
+    const RenderSettings& settings_;
     const EmitterTable& emitters_;
     std::vector<float> densities_;  // with which points of a material's emitters are sampled, m^-2
     ImagePlane plane_;
@@ -178,7 +181,8 @@ class PathTracer {
 
 }  // namespace
 
-RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const EmitterTable& emitters) {
+RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const RenderSettings& settings,
+                             const EmitterTable& emitters) {
     const auto own = [](const Material& m) { return m.reflectance.has_value() || m.metallic > 0.0f; };
     if (!scene.geometry.normals.empty() || !scene.pointEmitters.empty() ||
         std::any_of(scene.materials.begin(), scene.materials.end(), own)) {
@@ -187,8 +191,8 @@ RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, cons
                         "triangles and `global`",
                         scene.source.string()));
     }
-    const PathTracer tracer(embree, scene, emitters);
-    RadianceImage image{scene.render.width, scene.render.height, {}, {}};
+    const PathTracer tracer(embree, scene, settings, emitters);
+    RadianceImage image{settings.width, settings.height, {}, {}};
     const std::size_t pixels = std::size_t{image.width} * image.height;
     image.invisible.resize(pixels);
     image.visible.resize(pixels);

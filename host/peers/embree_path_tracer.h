@@ -12,6 +12,7 @@ namespace duolux {
 /// importance sampling with the balance heuristic are the same; random numbers are cheaper. Renders the
 /// visible component of the image. Throws UsageError for unsupported features: smooth normals, materials with
 /// their own reflectance.
-RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const EmitterTable& emitters);
+RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const RenderSettings& settings,
+                             const EmitterTable& emitters);
 
 }  // namespace duolux

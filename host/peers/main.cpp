@@ -51,9 +51,9 @@ class Pair {
          const PeerOptions& options)
         : device_(device), scene_(loadScene(file)), options_(options) {
         scene_.reflectance = *presetReflectance("global");
-        scene_.render.width = scene_.render.height = options.size;
-        scene_.render.spp = options.spp;
-        scene_.render.bounces = options.bounces;
+        scene_.settings.width = scene_.settings.height = options.size;
+        scene_.settings.spp = options.spp;
+        scene_.settings.bounces = options.bounces;
         deviceScene_ = std::make_unique<DeviceScene>(uploadScene(device, scene_));
         embree_ = std::make_unique<EmbreeScene>(scene_.geometry);
         emitters_ = buildEmitterTable(scene_, emittingTriangles(scene_), false);
@@ -68,7 +68,8 @@ class Pair {
     /// Mean radiance of the picture by Duolux and by Embree.
     void compareImages() const {
         const std::vector<glm::vec3> ours = render(device_, scene_).film.resolve().visible;
-        const std::vector<glm::vec3> theirs = renderByEmbree(*embree_, scene_, emitters_).visible;
+        const std::vector<glm::vec3> theirs =
+            renderByEmbree(*embree_, scene_, scene_.settings, emitters_).visible;
         glm::dvec3 a(0.0), b(0.0);
         for (std::size_t i = 0; i < ours.size(); ++i)
             a += glm::dvec3(ours[i]), b += glm::dvec3(theirs[i]);
@@ -105,14 +106,14 @@ class Pair {
 
     void addRender(const std::string& name) {
         const double samples =
-            static_cast<double>(scene_.render.width) * scene_.render.height * scene_.render.spp;
+            static_cast<double>(scene_.settings.width) * scene_.settings.height * scene_.settings.spp;
         add(
             name + "/render/global", "Msamples/s", samples * 1e-6,
             [this] {
                 const RenderStatistics s = render(device_, scene_).statistics;
                 return BenchTimes{s.renderSeconds, s.deviceSeconds};
             },
-            [this] { return timed([&] { renderByEmbree(*embree_, scene_, emitters_); }); });
+            [this] { return timed([&] { renderByEmbree(*embree_, scene_, scene_.settings, emitters_); }); });
     }
 
     void addBuild(const std::string& name) {
@@ -125,7 +126,7 @@ class Pair {
     }
 
     Device& device_;
-    Scene scene_;
+    LoadedScene scene_;
     const PeerOptions& options_;
     std::unique_ptr<DeviceScene> deviceScene_;
     std::unique_ptr<EmbreeScene> embree_;

@@ -13,6 +13,7 @@
 #include "host/base/hash.h"
 #include "host/base/memory.h"
 #include "host/base/version.h"
+#include "host/scene/hash.h"
 
 namespace duolux {
 
@@ -151,11 +152,12 @@ Checkpoint parse(std::string_view bytes, const Fail& fail) {
 
 }  // namespace
 
-FilmOrigin originOf(const Scene& scene, std::uint32_t firstSample, bool directLightInClosedForm) {
+FilmOrigin originOf(const Scene& scene, const RenderSettings& settings, std::uint32_t firstSample,
+                    bool directLightInClosedForm) {
     return {scene.source.string(),
-            scene.hash,
+            hashScene(scene),
             describeReflectance(scene.reflectance),
-            scene.render,
+            settings,
             directLightInClosedForm ? DirectLight::kClosedForm : DirectLight::kSampled,
             scene.display,
             firstSample};

@@ -26,7 +26,8 @@ struct Checkpoint {
 };
 
 /// `directLightInClosedForm`: see RenderStatistics.
-FilmOrigin originOf(const Scene& scene, std::uint32_t firstSample, bool directLightInClosedForm);
+FilmOrigin originOf(const Scene& scene, const RenderSettings& settings, std::uint32_t firstSample,
+                    bool directLightInClosedForm);
 
 /// Replaces the file atomically: a reader sees the old file or the complete new one. Throws MachineError.
 void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin, const Film& film,

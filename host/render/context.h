@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "host/gpu/device_scene.h"
+#include "host/render/kernel_setup.h"
 #include "host/render/render.h"
 
 namespace duolux {
@@ -13,6 +14,7 @@ struct RenderContext {
 
     Device& device;
     const Scene& scene;
+    const RenderSettings& settings;
     const RenderControl& control;
     const DeviceScene& deviceScene;
     Film film;
@@ -23,6 +25,7 @@ struct RenderContext {
     Clock::time_point start{}, lastReceived{}, lastCheckpoint{};
     double secondsPerSample = 0.0;  ///< on the device, as measured so far; 0: not measured yet
 
+    RenderInputs inputs() const { return {device, deviceScene, scene, settings}; }
     std::uint64_t pixels() const { return std::uint64_t{film.width()} * film.height(); }
     /// Number of samples or light paths to trace, excluding those that were resumed.
     std::uint64_t samplesTotal() const;
@@ -56,7 +59,7 @@ struct RenderContext {
 
 /// Renders a scene that is on the device: duolux::render but for the upload.
 RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScene& deviceScene,
-                            const RenderControl& control);
+                            const RenderSettings& settings, const RenderControl& control);
 
 /// Path tracer: traces all samples of all pixels.
 void gather(RenderContext& context);

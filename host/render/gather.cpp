@@ -25,8 +25,7 @@ class Gatherer {
             static_cast<std::uint32_t>(pixels_.size()),
             control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathKernel::kMaxPixels);
         statistics.directLightInClosedForm = chooseClosedForm();
-        PathKernel kernel(context_.device, context_.deviceScene, context_.scene, pixels_, maxPixels,
-                          statistics.directLightInClosedForm);
+        PathKernel kernel(context_.inputs(), pixels_, maxPixels, statistics.directLightInClosedForm);
         statistics.pipelineSeconds =
             std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
         statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();
@@ -58,7 +57,7 @@ class Gatherer {
                 ? std::min(PathKernel::kMaxSamples, control.maxSamplesPerDispatch)
                 : PathKernel::kMaxSamples;
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), control.firstSample,
-                          context_.scene.render.spp, kernel.maxPixels(), maxSamples);
+                          context_.settings.spp, kernel.maxPixels(), maxSamples);
         if (context_.samplesResumed > 0) schedule.resume(samplesOfPixels());
         if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.laneSamples();

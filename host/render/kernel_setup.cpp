@@ -22,12 +22,12 @@ const Reflectance& commonReflectance(const Scene& scene) {
 // Fraction of the work that is spent on the component of the pixel that is not displayed.
 constexpr float kUndisplayedWeight = 1.0f / 16.0f;
 
-shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene) {
+shared::PathParams makeParams(const RenderInputs& inputs) {
+    const auto& [device, deviceScene, scene, settings] = inputs;
     shared::PathParams params{};
-    params.camera =
-        deviceCamera(scene.camera, scene.render.width, scene.render.height, boundsOf(scene.geometry));
-    params.seed = scene.render.seed;
-    params.bounces = scene.render.bounces;
+    params.camera = deviceCamera(scene.camera, settings.width, settings.height, boundsOf(scene.geometry));
+    params.seed = settings.seed;
+    params.bounces = settings.bounces;
     const Reflectance& reflectance = commonReflectance(scene);
     params.opaque = deviceMatrix(reflectance.opaque);
     params.transparent = deviceMatrix(reflectance.transparent);
@@ -46,9 +46,10 @@ shared::PathParams makeParams(const Scene& scene, const DeviceScene& deviceScene
 
 }  // namespace
 
-Buffer uploadParams(const Device& device, const DeviceScene& deviceScene, const Scene& scene) {
-    const shared::PathParams params = makeParams(scene, deviceScene);
-    return Buffer::upload(device, BufferUse::kUniform, std::as_bytes(std::span(&params, 1)), "parameters");
+Buffer uploadParams(const RenderInputs& inputs) {
+    const shared::PathParams params = makeParams(inputs);
+    return Buffer::upload(inputs.device, BufferUse::kUniform, std::as_bytes(std::span(&params, 1)),
+                          "parameters");
 }
 
 std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer& params) {
@@ -62,7 +63,8 @@ std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer&
     return bindings;
 }
 
-std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, const Scene& scene) {
+std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
+    const auto& [device, deviceScene, scene, settings] = inputs;
     const TransportTraits& traits = deviceScene.traits;
     const Tuning& tuning = deviceScene.tuning;
     return {{shared::kSpecWorkgroupSize, tuning.workgroupSize},
@@ -83,8 +85,8 @@ std::vector<Specialization> sceneSpecialization(const DeviceScene& deviceScene, 
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecVertexColours, deviceScene.hasVertexColours},
             {shared::kSpecPlanes, deviceScene.hasPlanes},
-            {shared::kSpecSampler, scene.render.sampler == Sampler::kIndependent ? shared::kSamplerIndependent
-                                                                                 : shared::kSamplerSobol},
+            {shared::kSpecSampler,
+             settings.sampler == Sampler::kIndependent ? shared::kSamplerIndependent : shared::kSamplerSobol},
             {shared::kSpecTeamSize, tuning.lanes}};
 }
 

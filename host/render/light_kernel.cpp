@@ -6,7 +6,6 @@
 #include <cassert>
 
 #include "host/base/error.h"
-#include "host/render/kernel_setup.h"
 #include "shaders/embedded.h"
 
 namespace duolux {
@@ -18,19 +17,21 @@ static_assert(kPixelBytes == shared::kFilmSums * 8);
 
 constexpr std::uint32_t kReadPixels = 1u << 20;  // pixels of the film that are read at a time
 
-std::uint32_t chooseBandPixels(const Device& device, Layout layout, const Scene& scene, std::uint32_t limit) {
-    const std::uint64_t pixels = std::uint64_t{scene.render.width} * scene.render.height;
+std::uint32_t chooseBandPixels(const RenderInputs& inputs, std::uint32_t limit) {
+    const DeviceInfo& device = inputs.device.info();
+    const auto [width, height] = std::pair(inputs.settings.width, inputs.settings.height);
+    const std::uint64_t pixels = std::uint64_t{width} * height;
     // The other storage buffers: results and teams' progress and, with Layout::kStorage, nodes and triangles.
-    const std::uint32_t others = layout == Layout::kStorage ? 4 : 2;
-    const std::uint32_t bindable = device.info().maxStorageBuffers;
+    const std::uint32_t others = inputs.deviceScene.tuning.layout == Layout::kStorage ? 4 : 2;
+    const std::uint32_t bindable = device.maxStorageBuffers;
     const std::uint64_t bands = std::min(shared::kMaxFilmBands, bindable - std::min(bindable, others));
-    std::uint64_t most = device.info().maxStorageBufferRange / kPixelBytes;
+    std::uint64_t most = device.maxStorageBufferRange / kPixelBytes;
     if (limit > 0) most = std::min<std::uint64_t>(most, limit);
     if (pixels > most * bands) {
-        throw MachineError(fmt::format(
-            "{} ({}): a film of {}x{} pixels for light paths is too large; {} pixels can be "
-            "bound; the path tracer has no such limit",
-            device.info().name, device.info().driver, scene.render.width, scene.render.height, most * bands));
+        throw MachineError(
+            fmt::format("{} ({}): a film of {}x{} pixels for light paths is too large; {} pixels can be "
+                        "bound; the path tracer has no such limit",
+                        device.name, device.driver, width, height, most * bands));
     }
     return static_cast<std::uint32_t>(std::min(pixels, most));
 }
@@ -53,10 +54,10 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
     return bindings;
 }
 
-std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, std::size_t bands,
+std::vector<Specialization> specialize(const RenderInputs& inputs, std::size_t bands,
                                        std::uint32_t bandPixels) {
-    std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene);
-    constants.push_back({shared::kSpecCameraTransmittance, deviceScene.traits.cameraTransmittance});
+    std::vector<Specialization> constants = sceneSpecialization(inputs);
+    constants.push_back({shared::kSpecCameraTransmittance, inputs.deviceScene.traits.cameraTransmittance});
     constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
     constants.push_back({shared::kSpecBandPixels, bandPixels});
     return constants;
@@ -73,25 +74,25 @@ std::span<const std::uint32_t> chooseVariant(const Device& device, Layout layout
 
 }  // namespace
 
-LightKernel::LightKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-                         std::uint32_t maxPaths, const Limits& limits)
-    : device_(&device),
-      lanePaths_(duolux::lanePaths(deviceScene)),
+LightKernel::LightKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits)
+    : device_(&inputs.device),
+      lanePaths_(duolux::lanePaths(inputs.deviceScene)),
       maxPaths_(maxPaths),
-      pixels_(scene.render.width * scene.render.height),
-      bandPixels_(chooseBandPixels(device, deviceScene.tuning.layout, scene, limits.filmBandPixels)),
+      pixels_(inputs.settings.width * inputs.settings.height),
+      bandPixels_(chooseBandPixels(inputs, limits.filmBandPixels)),
       readPixels_(std::min(bandPixels_, kReadPixels)),
-      teams_(device, deviceScene.tuning, maxPaths),
+      teams_(inputs.device, inputs.deviceScene.tuning, maxPaths),
       maxLanes_((maxPaths + teams_.lanes() - 1) / teams_.lanes() * teams_.lanes()),
-      params_(uploadParams(device, deviceScene, scene)),
-      results_(
-          Buffer::readback(device, 2 * sizeof(shared::LaneResult) * std::uint64_t{maxLanes_}, "results")),
-      filmRead_(Buffer::readback(device, readPixels_ * kPixelBytes, "film")),
-      film_(makeFilm(device, pixels_, bandPixels_)),
-      kernel_(device, "light", chooseVariant(device, deviceScene.tuning.layout, limits.noInt64Atomics),
-              lightBindings(sceneBindings(deviceScene, params_), results_, teams_, film_),
-              specialize(deviceScene, scene, film_.size(), bandPixels_), sizeof(shared::LightDispatch)),
-      commands_{CommandSlot(device), CommandSlot(device)} {
+      params_(uploadParams(inputs)),
+      results_(Buffer::readback(inputs.device, 2 * sizeof(shared::LaneResult) * std::uint64_t{maxLanes_},
+                                "results")),
+      filmRead_(Buffer::readback(inputs.device, readPixels_ * kPixelBytes, "film")),
+      film_(makeFilm(inputs.device, pixels_, bandPixels_)),
+      kernel_(inputs.device, "light",
+              chooseVariant(inputs.device, inputs.deviceScene.tuning.layout, limits.noInt64Atomics),
+              lightBindings(sceneBindings(inputs.deviceScene, params_), results_, teams_, film_),
+              specialize(inputs, film_.size(), bandPixels_), sizeof(shared::LightDispatch)),
+      commands_{CommandSlot(inputs.device), CommandSlot(inputs.device)} {
     clearFilm();
 }
 

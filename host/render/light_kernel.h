@@ -6,6 +6,7 @@
 
 #include "host/film/film.h"
 #include "host/gpu/device_scene.h"
+#include "host/render/kernel_setup.h"
 #include "host/render/teams.h"
 #include "host/scene/scene.h"
 #include "host/vk/commands.h"
@@ -30,10 +31,9 @@ class LightKernel {
         bool noInt64Atomics = false;
     };
 
-    /// `maxPaths`: largest number of paths in one dispatch. `deviceScene` must outlive this object. Throws
+    /// `maxPaths`: largest number of paths in one dispatch. The device scene must outlive this object. Throws
     /// MachineError if the device cannot hold a film of the scene's size.
-    LightKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-                std::uint32_t maxPaths, const Limits& limits);
+    LightKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits);
 
     std::uint32_t maxPaths() const { return maxPaths_; }
     std::uint64_t deviceBytes() const;

@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cassert>
 
-#include "host/render/kernel_setup.h"
 #include "shaders/embedded.h"
 
 namespace duolux {
 
 namespace {
 
-std::vector<Specialization> specialize(const DeviceScene& deviceScene, const Scene& scene, bool closedForm) {
+std::vector<Specialization> specialize(const RenderInputs& inputs, bool closedForm) {
+    const DeviceScene& deviceScene = inputs.deviceScene;
     std::uint32_t directLight = closedForm ? shared::kDirectLightClosedForm : shared::kDirectLightSampled;
     if (deviceScene.emitterChoices == 0) directLight = shared::kDirectLightNone;
-    std::vector<Specialization> constants = sceneSpecialization(deviceScene, scene);
+    std::vector<Specialization> constants = sceneSpecialization(inputs);
     constants.push_back({shared::kSpecDirectLight, directLight});
     constants.push_back({shared::kSpecHasEmitters, !deviceScene.emitters.empty()});
-    constants.push_back({shared::kSpecFilmLayers, scene.render.layers});
+    constants.push_back({shared::kSpecFilmLayers, inputs.settings.layers});
     return constants;
 }
 
@@ -53,28 +53,30 @@ Buffer uploadPixels(const Device& device, std::span<const std::uint32_t> pixels,
 
 }  // namespace
 
-PathKernel::PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-                       std::span<const std::uint32_t> pixels, std::uint32_t maxPixels, bool closedForm)
-    : laneSamples_(lanePaths(deviceScene)),
+PathKernel::PathKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels,
+                       std::uint32_t maxPixels, bool closedForm)
+    : laneSamples_(lanePaths(inputs.deviceScene)),
       maxPixels_(maxPixels),
-      lookPixels_(std::min(scene.render.width, 64u) * std::min(scene.render.height, 64u)),
+      lookPixels_(std::min(inputs.settings.width, 64u) * std::min(inputs.settings.height, 64u)),
       pixels_(pixels),
-      layerChannels_(channelsOf(scene.render.layers)),
-      teams_(device, deviceScene.tuning, maxPixels),
-      params_(uploadParams(device, deviceScene, scene)),
-      pixelOrder_(uploadPixels(device, pixels, gridPixels(scene.render.width, scene.render.height))),
-      results_(
-          Buffer::readback(device, 2 * sizeof(shared::PixelResult) * std::uint64_t{maxPixels}, "results")),
+      layerChannels_(channelsOf(inputs.settings.layers)),
+      teams_(inputs.device, inputs.deviceScene.tuning, maxPixels),
+      params_(uploadParams(inputs)),
+      pixelOrder_(
+          uploadPixels(inputs.device, pixels, gridPixels(inputs.settings.width, inputs.settings.height))),
+      results_(Buffer::readback(inputs.device, 2 * sizeof(shared::PixelResult) * std::uint64_t{maxPixels},
+                                "results")),
       // Without layers, a few bytes that are bound but not used.
       layerResults_(Buffer::readback(
-          device, std::max(2 * sizeof(std::int64_t) * maxPixels * layerChannels_, sizeof(std::int64_t)),
-          "layers")),
-      kernel_(device, "path",
-              variantFor(deviceScene.tuning.layout, spirv::kPathKernelTexel, spirv::kPathKernelStorage,
+          inputs.device,
+          std::max(2 * sizeof(std::int64_t) * maxPixels * layerChannels_, sizeof(std::int64_t)), "layers")),
+      kernel_(inputs.device, "path",
+              variantFor(inputs.deviceScene.tuning.layout, spirv::kPathKernelTexel, spirv::kPathKernelStorage,
                          spirv::kPathKernelRayQuery),
-              pathBindings(sceneBindings(deviceScene, params_), pixelOrder_, results_, layerResults_, teams_),
-              specialize(deviceScene, scene, closedForm), sizeof(shared::DispatchParams)),
-      commands_{CommandSlot(device), CommandSlot(device)} {}
+              pathBindings(sceneBindings(inputs.deviceScene, params_), pixelOrder_, results_, layerResults_,
+                           teams_),
+              specialize(inputs, closedForm), sizeof(shared::DispatchParams)),
+      commands_{CommandSlot(inputs.device), CommandSlot(inputs.device)} {}
 
 std::uint64_t PathKernel::deviceBytes() const {
     return params_.allocated() + pixelOrder_.allocated() + results_.allocated() + layerResults_.allocated() +

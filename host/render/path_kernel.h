@@ -9,6 +9,7 @@
 #include "host/film/film.h"
 #include "host/gpu/device_scene.h"
 #include "host/render/film_quantum.h"
+#include "host/render/kernel_setup.h"
 #include "host/render/schedule.h"
 #include "host/render/teams.h"
 #include "host/scene/scene.h"
@@ -29,10 +30,9 @@ class PathKernel {
     static constexpr std::uint32_t kMaxPixels = 1u << 18;
 
     /// `maxPixels`: largest number of pixels in one dispatch. `closedForm`: direct light is computed in
-    /// closed form instead of being sampled. `deviceScene` must be made from `scene`; `deviceScene` and
-    /// `pixels` must outlive this object.
-    PathKernel(const Device& device, const DeviceScene& deviceScene, const Scene& scene,
-               std::span<const std::uint32_t> pixels, std::uint32_t maxPixels, bool closedForm);
+    /// closed form instead of being sampled. The device scene and `pixels` must outlive this object.
+    PathKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels, std::uint32_t maxPixels,
+               bool closedForm);
 
     std::uint32_t maxPixels() const { return maxPixels_; }
     std::uint64_t deviceBytes() const;

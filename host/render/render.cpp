@@ -34,7 +34,7 @@ double meanDisplayed(const Film& film, glm::vec2 display) {
 }  // namespace
 
 std::uint64_t RenderContext::samplesTotal() const {
-    const std::uint64_t all = (scene.render.spp - control.firstSample) * pixels();
+    const std::uint64_t all = (settings.spp - control.firstSample) * pixels();
     return all - std::min(all, samplesResumed);
 }
 
@@ -87,7 +87,7 @@ void RenderContext::failCutShort() const {
         fmt::format("tracing paths failed on {} ({}): the driver ended the loops of a single path; render "
                     "with fewer bounces "
                     "than {}, or with fewer surfaces that light passes through",
-                    device.info().name, device.info().driver, scene.render.bounces));
+                    device.info().name, device.info().driver, settings.bounces));
 }
 
 bool RenderStatistics::cutOffByBounces() const {
@@ -117,7 +117,7 @@ Film makeFilm(const RenderSettings& settings) {
 }
 
 void trace(RenderContext& context) {
-    if (context.scene.render.integrator == Integrator::kLight) {
+    if (context.settings.integrator == Integrator::kLight) {
         shoot(context);
     } else {
         gather(context);
@@ -136,17 +136,17 @@ void trace(RenderContext& context) {
 }  // namespace
 
 RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScene& deviceScene,
-                            const RenderControl& control) {
-    if (scene.render.layers != 0 && scene.render.integrator == Integrator::kLight) {
+                            const RenderSettings& settings, const RenderControl& control) {
+    if (settings.layers != 0 && settings.integrator == Integrator::kLight) {
         throw UsageError(
             fmt::format("{}: the light tracer traces no camera rays, from which layers are filled",
                         scene.source.string()));
     }
-    RenderContext context{device, scene, control, deviceScene, makeFilm(scene.render), {}};
+    RenderContext context{device, scene, settings, control, deviceScene, makeFilm(settings), {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;
-        assert(state.film.width() == scene.render.width && state.film.height() == scene.render.height);
-        assert(state.film.layers() == scene.render.layers);
+        assert(state.film.width() == settings.width && state.film.height() == settings.height);
+        assert(state.film.layers() == settings.layers);
         context.film = state.film;
         context.samplesResumed = state.film.totalSamples() + state.film.lightPaths();
         context.lastBounce = state.lastBounceRadiance * static_cast<double>(context.samplesResumed);
@@ -157,8 +157,9 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
     statistics.tuning = context.deviceScene.tuning;
     statistics.buildSeconds = context.deviceScene.buildSeconds;
     statistics.uploadSeconds = context.deviceScene.uploadSeconds;
-    statistics.effectiveBounces = context.deviceScene.traits.effectiveBounces;
-    statistics.limitedByBounces = context.deviceScene.traits.limitedByBounces;
+    const std::uint32_t mostScatterings = context.deviceScene.traits.mostScatterings;
+    statistics.effectiveBounces = std::min(settings.bounces, mostScatterings);
+    statistics.limitedByBounces = settings.bounces < mostScatterings;
     try {
         trace(context);
     } catch (const MachineError& e) {

@@ -87,7 +87,7 @@ struct RenderStatistics {
     /// it, and of the whole image.
     double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0, meanRadiance = 0.0;
     std::uint32_t effectiveBounces =
-        0;  ///< scattering events that can contribute: at most the scene's `bounces`
+        0;  ///< scattering events that can contribute: at most the `bounces` of the settings
     bool directLightInClosedForm = false;
     bool stopped = false;  ///< ended before all samples were traced
     /// The samples of some pixels, or the light paths, have gaps in their numbers. The image is valid, but no
@@ -117,11 +117,17 @@ class RenderFailure : public MachineError {
     std::shared_ptr<RenderOutput> output_;
 };
 
-/// Renders the scene with its integrator. The film includes the resumed samples. Identical scene, settings,
-/// seed and device give a bitwise identical image. Throws UsageError if direct light in closed form is
-/// requested but does not apply, if the light tracer is asked for layers, or if the device does not support
-/// the requested tuning. Throws MachineError
-/// with the stage and the driver if the device fails, or RenderFailure once there are samples.
-RenderOutput render(Device& device, const Scene& scene, const RenderControl& control = {});
+/// Renders a scene once; see Renderer for more. The film includes the resumed samples. Identical scene,
+/// settings, seed and device give a bitwise identical image. Throws UsageError if direct light in closed form
+/// is requested but does not apply, if the light tracer is asked for layers, or if the device does not
+/// support the requested tuning. Throws MachineError with the stage and the driver if the device fails, or
+/// RenderFailure once there are samples.
+RenderOutput render(Device& device, const Scene& scene, const RenderSettings& settings,
+                    const RenderControl& control = {});
+
+/// The same with the settings of its files.
+inline RenderOutput render(Device& device, const LoadedScene& scene, const RenderControl& control = {}) {
+    return render(device, scene, scene.settings, control);
+}
 
 }  // namespace duolux

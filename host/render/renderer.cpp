@@ -8,15 +8,15 @@
 
 #include "host/base/memory.h"
 #include "host/render/context.h"
-#include "host/scene/hash.h"
 
 namespace duolux {
 
 namespace {
 
-DeviceScene upload(const Device& device, const Scene& scene, const TuningChoice& tuning) {
+DeviceScene upload(const Device& device, const Scene& scene, Integrator integrator,
+                   const TuningChoice& tuning) {
     try {
-        return uploadScene(device, scene, tuning);
+        return uploadScene(device, scene, integrator, tuning);
     } catch (const std::bad_alloc&) {
         throw outOfMemory(fmt::format("{}: cannot build trees over {} triangles", scene.source.string(),
                                       scene.geometry.triangles.size()),
@@ -27,13 +27,7 @@ DeviceScene upload(const Device& device, const Scene& scene, const TuningChoice&
 }  // namespace
 
 Renderer::Renderer(Device& device, Scene scene, const TuningChoice& tuning)
-    : device_(device), scene_(std::move(scene)), deviceScene_(upload(device, scene_, tuning)) {}
-
-void Renderer::setSettings(const RenderSettings& settings) {
-    upToDate_ = upToDate_ && settings.integrator == scene_.render.integrator &&
-                settings.bounces == scene_.render.bounces;
-    scene_.render = settings;
-}
+    : device_(device), scene_(std::move(scene)), deviceScene_(upload(device, scene_, integrator_, tuning)) {}
 
 void Renderer::setReflectance(const Reflectance& reflectance) {
     upToDate_ = upToDate_ && reflectance == scene_.reflectance;
@@ -46,16 +40,19 @@ void Renderer::setMaterials(std::vector<Material> materials) {
     scene_.materials = std::move(materials);
 }
 
-RenderOutput Renderer::render(const RenderControl& control) {
-    if (!upToDate_) replaceMaterials(deviceScene_, device_, scene_);
+RenderOutput Renderer::render(const RenderSettings& settings, const RenderControl& control) {
+    if (!upToDate_ || settings.integrator != integrator_)
+        replaceMaterials(deviceScene_, device_, scene_, settings.integrator);
+    integrator_ = settings.integrator;
     upToDate_ = true;
-    return renderOnDevice(device_, scene_, deviceScene_, control);
+    return renderOnDevice(device_, scene_, deviceScene_, settings, control);
 }
 
-RenderOutput render(Device& device, const Scene& scene, const RenderControl& control) {
-    DeviceScene deviceScene = upload(device, scene, control.tuning);
+RenderOutput render(Device& device, const Scene& scene, const RenderSettings& settings,
+                    const RenderControl& control) {
+    DeviceScene deviceScene = upload(device, scene, settings.integrator, control.tuning);
     deviceScene.tree = {};  // rendered once, it is not changed
-    return renderOnDevice(device, scene, deviceScene, control);
+    return renderOnDevice(device, scene, deviceScene, settings, control);
 }
 
 }  // namespace duolux

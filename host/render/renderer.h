@@ -19,7 +19,6 @@ class Renderer {
 
     void setCamera(const Camera& camera) { scene_.camera = camera; }
     void setDisplay(glm::vec2 display) { scene_.display = display; }
-    void setSettings(const RenderSettings& settings);
     /// The scene-wide one.
     void setReflectance(const Reflectance& reflectance);
     /// As many as there are. What emits may change, too.
@@ -27,11 +26,12 @@ class Renderer {
 
     /// The same bits as duolux::render of the same scene, whatever was rendered before. `control.tuning` has
     /// no meaning here. Throws as that.
-    RenderOutput render(const RenderControl& control = {});
+    RenderOutput render(const RenderSettings& settings, const RenderControl& control = {});
 
   private:
     Device& device_;
     Scene scene_;
+    Integrator integrator_ = Integrator::kPath;  ///< that the device scene is made for
     DeviceScene deviceScene_;
     bool upToDate_ = true;  ///< the device knows of the materials
 };

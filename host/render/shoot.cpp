@@ -22,8 +22,7 @@ class Shooter {
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxPaths =
             control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : kMaxPaths;
-        LightKernel kernel(context_.device, context_.deviceScene, context_.scene, maxPaths,
-                           {control.filmBandPixels, control.noInt64Atomics});
+        LightKernel kernel(context_.inputs(), maxPaths, {control.filmBandPixels, control.noInt64Atomics});
         if (control.maxSamplesPerLane > 0) kernel.limitLanePaths(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.lanePaths();
         statistics.pipelineSeconds =

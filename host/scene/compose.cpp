@@ -86,7 +86,7 @@ bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneO
     return local == glm::dmat4(1.0) || transformGeometry(mesh.geometry, local, roundingError);
 }
 
-Composer::Composer(Scene& scene) : scene_(scene) {
+Composer::Composer(LoadedScene& scene) : scene_(scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         materials_.try_emplace(scene.materials[i], static_cast<std::uint32_t>(i));
 }
@@ -144,19 +144,19 @@ void Composer::finish() {
     leftOut_.clear();
 }
 
-void appendMesh(Scene& scene, Mesh mesh) {
+void appendMesh(LoadedScene& scene, Mesh mesh) {
     Composer composer(scene);
     composer.append(std::move(mesh));
     composer.finish();
 }
 
-void appendRectangle(Scene& scene, const Rectangle& rectangle, const Material& material) {
+void appendRectangle(LoadedScene& scene, const Rectangle& rectangle, const Material& material) {
     Composer composer(scene);
     composer.append(rectangle, material);
     composer.finish();
 }
 
-void setOrigin(Scene& scene, const glm::dvec3& origin) {
+void setOrigin(LoadedScene& scene, const glm::dvec3& origin) {
     scene.origin = origin;
     if (origin == glm::dvec3(0.0)) return;
     scene.warnings.push_back(

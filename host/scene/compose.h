@@ -36,7 +36,7 @@ struct Rectangle {
 /// Adds meshes to a scene, in time proportional to their size.
 class Composer {
   public:
-    explicit Composer(Scene& scene);
+    explicit Composer(LoadedScene& scene);
 
     /// Adds the triangles and materials of a mesh, whose origin must be the scene's; a material equal to one
     /// that the scene has is shared. Triangles without area are left out. Throws InputError if there would be
@@ -56,17 +56,17 @@ class Composer {
         std::size_t dropped = 0, all = 0;
     };
 
-    Scene& scene_;
+    LoadedScene& scene_;
     std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
     std::map<std::filesystem::path, LeftOut> leftOut_;
 };
 
 /// The same for one mesh or rectangle.
-void appendMesh(Scene& scene, Mesh mesh);
-void appendRectangle(Scene& scene, const Rectangle& rectangle, const Material& material);
+void appendMesh(LoadedScene& scene, Mesh mesh);
+void appendRectangle(LoadedScene& scene, const Rectangle& rectangle, const Material& material);
 
 /// Sets the origin that is subtracted from all coordinates of a scene, and warns if it is not 0.
-void setOrigin(Scene& scene, const glm::dvec3& origin);
+void setOrigin(LoadedScene& scene, const glm::dvec3& origin);
 
 /// Removes triangles without area: those too thin to have a normal in single precision. Returns their number.
 std::size_t dropDegenerateTriangles(Geometry& geometry);

@@ -62,6 +62,8 @@ struct RenderSettings {
     Sampler sampler = Sampler::kSobol;
     Integrator integrator = Integrator::kPath;
     std::uint32_t layers = 0;  ///< optional layers of the film, a FilmLayerSet; kPath only
+
+    float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };
 
 /// Emits the same radiant intensity in all directions, in W sr^-1 (scene units), components >= 0.
@@ -74,11 +76,8 @@ struct PointEmitter {
 /// A validated scene: every index in range, every number finite, at least one triangle, no zero-length camera
 /// vectors.
 struct Scene {
-    std::filesystem::path source;              ///< the file that was loaded
-    std::vector<std::filesystem::path> files;  ///< all that were read
-    std::string hash;  ///< 16 hex digits over everything the image depends on, except RenderSettings
+    std::filesystem::path source;  ///< the file that was loaded, for messages
     Camera camera;
-    RenderSettings render;
     glm::vec2 display{0.0f, 1.0f};  ///< the row d of eq. 8; the displayed radiance is d . L
     Reflectance reflectance;        ///< scene-wide
     std::vector<Material> materials;
@@ -91,12 +90,18 @@ struct Scene {
     struct Content {
         std::size_t positions = 0, triangles = 0, materials = 0;
     } content;
-    std::uint64_t meshBytes = 0;    ///< size of the mesh files that were read
-    std::vector<Warning> warnings;  ///< default light used, missing MTL, degenerate triangles ...
 
     const Reflectance& reflectanceOf(const Material& material) const {
         return material.reflectance ? *material.reflectance : reflectance;
     }
+};
+
+/// A scene as its files describe it, with what else they say and what their readers noticed.
+struct LoadedScene : Scene {
+    RenderSettings settings;
+    std::vector<Warning> warnings;             ///< default light used, missing MTL, degenerate triangles ...
+    std::vector<std::filesystem::path> files;  ///< all that were read
+    std::uint64_t meshBytes = 0;               ///< size of those that hold meshes
 };
 
 /// Sets Scene::content: everything in the scene comes from its files.

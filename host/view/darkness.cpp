@@ -22,9 +22,9 @@ bool any(const glm::vec3& v) {
 /// Inspects the surfaces that the camera sees and the emitters of the scene.
 class Inspection {
   public:
-    explicit Inspection(const Scene& scene)
-        : scene_(scene), surface_(scene, scene.geometry.triangles.size()) {
-        lookThrough(scene.camera, aspectOf(scene.render), surface_,
+    Inspection(const Scene& scene, const RenderSettings& settings)
+        : scene_(scene), settings_(settings), surface_(scene, scene.geometry.triangles.size()) {
+        lookThrough(scene.camera, settings_.aspect(), surface_,
                     [&](const SurfacePoint& point, std::uint32_t) { seen_.push_back(point); });
     }
 
@@ -68,7 +68,7 @@ class Inspection {
         const Surface surface(scene_, content > 0 ? content : scene_.geometry.triangles.size());
         const Illumination illumination(surface);
         const ViewSamples samples(surface, illumination);
-        return frameCamera(choice, surface, samples, aspectOf(scene_.render));
+        return frameCamera(choice, surface, samples, settings_.aspect());
     }
 
     /// Whether any surface can turn the emitted component into visible light.
@@ -112,7 +112,7 @@ class Inspection {
         if (filled() < kFewest) return Darkness::kLooksPast;
         if (nearlyAll([&](const SurfacePoint& point) { return emits(point); }))
             return Darkness::kOnlyEmitters;
-        if (scene_.render.bounces == 0) return Darkness::kNoBounces;
+        if (settings_.bounces == 0) return Darkness::kNoBounces;
         if (!anythingBecomesVisible()) return Darkness::kNothingVisible;
         const auto dead = [&](const SurfacePoint& point) {
             return !scatters(materialOf(point), point.front);
@@ -132,14 +132,15 @@ class Inspection {
     }
 
     const Scene& scene_;
+    const RenderSettings& settings_;
     Surface surface_;
     std::vector<SurfacePoint> seen_;
 };
 
 }  // namespace
 
-DarkReason whyDark(const Scene& scene) {
-    return Inspection(scene).reason();
+DarkReason whyDark(const Scene& scene, const RenderSettings& settings) {
+    return Inspection(scene, settings).reason();
 }
 
 }  // namespace duolux

@@ -29,6 +29,6 @@ struct DarkReason {
 };
 
 /// The likely cause, found by rays from the camera and paths from the surfaces that it sees to the emitters.
-DarkReason whyDark(const Scene& scene);
+DarkReason whyDark(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace duolux

@@ -133,13 +133,13 @@ Place enclosedPlace(const Surface& surface, const Camera& camera, float aspect, 
 
 /// Scales the emission of the luminaire (the last triangles of the scene) so that the mean radiance of white
 /// surfaces in view is `wanted`.
-void calibrate(Scene& scene, std::size_t firstTriangle, float wanted) {
+void calibrate(LoadedScene& scene, std::size_t firstTriangle, float wanted) {
     if (scene.geometry.triangles.size() == firstTriangle) return;
     const std::uint32_t material = scene.geometry.materials.back();
     const Surface surface(scene, firstTriangle);
     const Illumination illumination(surface, material);
     double sum = 0.0, count = 0.0;
-    lookThrough(scene.camera, aspectOf(scene.render), surface,
+    lookThrough(scene.camera, scene.settings.aspect(), surface,
                 [&](const SurfacePoint& point, std::uint32_t seed) {
                     if (!scatters(surface.materialOf(point.triangle), point.front)) return;
                     constexpr float kMost = 4.0f;  // limits the unbounded values close to the luminaire
@@ -166,7 +166,7 @@ float brightnessFor(const Camera& camera, float aspect, const Surface& surface,
     return std::max(seen, samples.brightness());
 }
 
-void addDefaultLight(Scene& scene, const Surface& surface) {
+void addDefaultLight(LoadedScene& scene, const Surface& surface) {
     const glm::vec3 lower(surface.bulk().lower), upper(surface.bulk().upper);
     const Camera& camera = scene.camera;
     const glm::vec3 forward = ViewFrame(camera).forward;
@@ -178,9 +178,9 @@ void addDefaultLight(Scene& scene, const Surface& surface) {
     const float distance = inside || ahead <= 0.0f ? glm::distance(camera.target, camera.position) : ahead;
     const glm::vec3 lit = camera.position + distance * forward;
 
-    std::optional<Place> place = openPlace(surface, camera, aspectOf(scene.render), distance, lit);
+    std::optional<Place> place = openPlace(surface, camera, scene.settings.aspect(), distance, lit);
     const bool enclosed = !place;
-    if (enclosed) place = enclosedPlace(surface, camera, aspectOf(scene.render), distance, lit);
+    if (enclosed) place = enclosedPlace(surface, camera, scene.settings.aspect(), distance, lit);
 
     // A small Lambertian source on the axis gives the irradiance E_inv A / r^2; white reflects irradiance /
     // pi.

@@ -4,8 +4,6 @@
 
 namespace duolux {
 
-/// Whether any triangle has a material that emits.
-
 /// How brightly the emitters light the surfaces that a camera sees, or the whole surface if that is brighter:
 /// the mean, up to 1, of the radiance that white would reflect plus the emitted radiance.
 float brightnessFor(const Camera& camera, float aspect, const Surface& surface,
@@ -17,6 +15,6 @@ float brightnessFor(const Camera& camera, float aspect, const Surface& surface,
 /// luminaire reflects a radiance of about 0.8. In a closed room, where walls return the light, the mean of
 /// white surfaces in view is half of this. Requires the scene's camera and geometry; `surface` excludes the
 /// luminaire.
-void addDefaultLight(Scene& scene, const Surface& surface);
+void addDefaultLight(LoadedScene& scene, const Surface& surface);
 
 }  // namespace duolux

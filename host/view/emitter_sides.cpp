@@ -66,7 +66,7 @@ void judge(const Surface& surface, Emitters& emitters) {
 
 }  // namespace
 
-std::vector<Warning> emitterWarnings(const Surface& surface, const Camera& camera) {
+std::vector<Warning> emitterWarnings(const Surface& surface, const Camera& camera, float aspect) {
     std::map<std::uint32_t, Emitters> all;  // by material
     for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
         if (!emitsFromItsFront(surface.materialOf(i))) continue;
@@ -74,12 +74,11 @@ std::vector<Warning> emitterWarnings(const Surface& surface, const Camera& camer
             all[surface.triangles()[i].material].triangles.push_back(i);
     }
     if (all.empty()) return {};
-    lookThrough(camera, aspectOf(surface.scene().render), surface,
-                [&](const SurfacePoint& point, std::uint32_t) {
-                    const auto emitters = all.find(surface.triangles()[point.triangle].material);
-                    if (emitters == all.end()) return;
-                    ++(point.front ? emitters->second.fronts : emitters->second.backs);
-                });
+    lookThrough(camera, aspect, surface, [&](const SurfacePoint& point, std::uint32_t) {
+        const auto emitters = all.find(surface.triangles()[point.triangle].material);
+        if (emitters == all.end()) return;
+        ++(point.front ? emitters->second.fronts : emitters->second.backs);
+    });
     std::vector<Warning> warnings;
     for (auto& [material, emitters] : all) {
         judge(surface, emitters);

@@ -10,7 +10,6 @@
 #include "host/loaders/scene_file.h"
 #include "host/scene/emitters.h"
 #include "host/scene/energy.h"
-#include "host/scene/hash.h"
 #include "host/scene/mesh.h"
 #include "host/view/default_light.h"
 #include "host/view/emitter_sides.h"
@@ -29,8 +28,8 @@ Warning blackPicture(const Scene& scene) {
     return {std::move(text), WarningKind::kBlackPicture};
 }
 
-void warnOfEmitters(Scene& scene, const Surface& surface) {
-    for (Warning& warning : emitterWarnings(surface, scene.camera))
+void warnOfEmitters(LoadedScene& scene, const Surface& surface) {
+    for (Warning& warning : emitterWarnings(surface, scene.camera, scene.settings.aspect()))
         scene.warnings.push_back(std::move(warning));
 }
 
@@ -53,12 +52,12 @@ std::string describeOutliers(const Surface& surface) {
 /// Chooses camera and lamp.
 class View {
   public:
-    View(Scene& scene, std::size_t framedTriangles)
+    View(LoadedScene& scene, std::size_t framedTriangles)
         : scene_(scene),
           surface_(scene, framedTriangles),
           illumination_(surface_),
           samples_(surface_, illumination_),
-          aspect_(static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height)) {}
+          aspect_(scene.settings.aspect()) {}
 
     void frame(const CameraChoice& choice) {
         scene_.camera = frameCamera(choice, surface_, samples_, aspect_);
@@ -74,7 +73,7 @@ class View {
     void addLamp() { addDefaultLight(scene_, surface_); }
 
   private:
-    Scene& scene_;
+    LoadedScene& scene_;
     Surface surface_;
     Illumination illumination_;
     ViewSamples samples_;
@@ -91,7 +90,7 @@ glm::dvec3 withinScene(const Scene& scene, const char* what, const glm::dvec3& p
     return local;
 }
 
-void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices) {
+void chooseView(LoadedScene& scene, const SceneFile& read, const SceneChoices& choices) {
     CameraChoice camera = read.camera.overriddenBy(choices.camera);
     if (const auto wrong = camera.contradiction()) {
         throw InputError(scene.source.string(), "camera", wrong->problem, wrong->remedy);
@@ -124,23 +123,23 @@ void chooseView(Scene& scene, const SceneFile& read, const SceneChoices& choices
     }
 }
 
-void chooseBounces(Scene& scene, const SceneFile& read, const SceneChoices& choices) {
+void chooseBounces(LoadedScene& scene, const SceneFile& read, const SceneChoices& choices) {
     if (choices.bounces) {
-        scene.render.bounces = *choices.bounces;
+        scene.settings.bounces = *choices.bounces;
     } else if (!read.hasBounces && seriesMayGrow(scene)) {
-        scene.render.bounces = kBouncesOfGrowth;
+        scene.settings.bounces = kBouncesOfGrowth;
         scene.warnings.push_back(fmt::format(
             "light may grow with every bounce, and the number of bounces is not specified: using {}",
             kBouncesOfGrowth));
     }
 }
 
-Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
+LoadedScene load(const std::filesystem::path& path, const SceneChoices& choices) {
     SceneFile read = readSceneFile(path, choices.reading);
-    Scene scene = std::move(read.scene);
+    LoadedScene scene = std::move(read.scene);
     if (choices.size) {
-        scene.render.width = choices.size->x;
-        scene.render.height = choices.size->y;
+        scene.settings.width = choices.size->x;
+        scene.settings.height = choices.size->y;
     }
     scene.reflectance = choices.reflectance.value_or(scene.reflectance);
     chooseBounces(scene, read, choices);
@@ -148,13 +147,12 @@ Scene load(const std::filesystem::path& path, const SceneChoices& choices) {
     chooseView(scene, read, choices);
     for (Warning& warning : scene.warnings)
         warning.text = asMessage(warning.text);
-    scene.hash = hashScene(scene);
     return scene;
 }
 
 }  // namespace
 
-Scene loadScene(const std::filesystem::path& path, const SceneChoices& choices) {
+LoadedScene loadScene(const std::filesystem::path& path, const SceneChoices& choices) {
     return withMemoryToRead(path, [&] { return load(path, choices); });
 }
 

@@ -32,7 +32,7 @@ struct SceneChoices {
 /// Values that neither the file nor the caller specifies are chosen automatically: missing parts of the
 /// camera, a lamp, and 16 bounces, or kBouncesOfGrowth if light may grow with every bounce. A lamp and
 /// kBouncesOfGrowth are reported in the scene's warnings. Throws InputError.
-Scene loadScene(const std::filesystem::path& path, const SceneChoices& choices = {});
+LoadedScene loadScene(const std::filesystem::path& path, const SceneChoices& choices = {});
 
 /// The default number of bounces if the series of bounces may diverge.
 inline constexpr std::uint32_t kBouncesOfGrowth = 4;

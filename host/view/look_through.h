@@ -17,10 +17,6 @@ struct ViewFrame {
           up(glm::cross(right, forward)) {}
 };
 
-inline float aspectOf(const RenderSettings& render) {
-    return static_cast<float>(render.width) / static_cast<float>(render.height);
-}
-
 inline constexpr int kLooksAcross = 20;  ///< rays of lookThrough in each direction
 
 /// Calls visit(point, number), with numbers from 1 on, for the points that a camera sees by a few rays spread

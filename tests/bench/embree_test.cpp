@@ -23,14 +23,14 @@ namespace {
 
 /// The reference judges ours, too: tests/statistical/cornell_test.cpp.
 TEST(Embree, PathTracerMatchesTheReference) {
-    Scene scene = cornellBox();
+    LoadedScene scene = cornellBox();
     scene.reflectance = *presetReflectance("global");
-    scene.render.bounces = 8;
-    scene.render.spp = 128;
+    scene.settings.bounces = 8;
+    scene.settings.spp = 128;
     reference::Settings settings;
-    settings.width = scene.render.width;
-    settings.height = scene.render.height;
-    settings.bounces = scene.render.bounces;
+    settings.width = scene.settings.width;
+    settings.height = scene.settings.height;
+    settings.bounces = scene.settings.bounces;
     settings.samples = 2048;
     reference::Estimates expected = reference::trace(scene, settings);
     for (reference::Estimate& pixel : expected.pixels) {
@@ -41,8 +41,8 @@ TEST(Embree, PathTracerMatchesTheReference) {
     const EmbreeScene embree(scene.geometry);
     const EmitterTable emitters = buildEmitterTable(scene, emittingTriangles(scene), false);
     std::vector<RadianceImage> renders;
-    for (scene.render.seed = 1; scene.render.seed <= 16; ++scene.render.seed)
-        renders.push_back(renderByEmbree(embree, scene, emitters));
+    for (scene.settings.seed = 1; scene.settings.seed <= 16; ++scene.settings.seed)
+        renders.push_back(renderByEmbree(embree, scene, scene.settings, emitters));
     const Agreement agreement = judge(renders, expected);
     EXPECT_TRUE(agreement.agrees) << agreement.report;
 }
@@ -50,7 +50,7 @@ TEST(Embree, PathTracerMatchesTheReference) {
 TEST(Embree, RaysMeetWhatOursMeet) {
     for (const char* name : {"cornell", "two-spheres-1000"}) {
         const TemporaryFolder folder;
-        const Scene scene = loadScene(writeBuiltinScene(name, folder.path()));
+        const LoadedScene scene = loadScene(writeBuiltinScene(name, folder.path()));
         const DeviceScene deviceScene = uploadScene(device(), scene);
         const EmbreeScene embree(scene.geometry);
         for (const RaySet& set : makeRaySets(device(), scene, deviceScene, 128, 96)) {

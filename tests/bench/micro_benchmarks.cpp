@@ -20,7 +20,7 @@ using namespace duolux;
 /// Two spheres of about so many triangles, as a file and as a scene; made once.
 struct TwoSpheres {
     std::filesystem::path file;
-    Scene scene;
+    LoadedScene scene;
     std::uintmax_t bytes = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "host/base/temporary_folder.h"
 #include "host/bench/builtin_scenes.h"
 #include "host/bench/trace_kernel.h"
+#include "host/scene/hash.h"
 #include "host/view/load.h"
 #include "tests/reference/triangles.h"
 #include "tests/support/device.h"
@@ -19,14 +20,14 @@ namespace {
 using reference::Crossing;
 using reference::Vec3;
 
-Scene builtin(const std::string& name) {
+LoadedScene builtin(const std::string& name) {
     const TemporaryFolder folder;
     return loadScene(writeBuiltinScene(name, folder.path()));
 }
 
 TEST(BuiltinScenes, AreThoseOfTheAssets) {
-    EXPECT_EQ(builtin("cornell").hash, loadScene(DUOLUX_ASSETS "/cornell/cornell.json").hash);
-    EXPECT_EQ(builtin("spot").hash, loadScene(DUOLUX_ASSETS "/spot/spot.json").hash);
+    EXPECT_EQ(hashScene(builtin("cornell")), hashScene(loadScene(DUOLUX_ASSETS "/cornell/cornell.json")));
+    EXPECT_EQ(hashScene(builtin("spot")), hashScene(loadScene(DUOLUX_ASSETS "/spot/spot.json")));
     EXPECT_NEAR(static_cast<double>(builtin("two-spheres-1000").geometry.triangles.size()), 1000.0, 10.0);
     EXPECT_TRUE(isBuiltinScene("two-spheres-1000"));
     for (const char* name :
@@ -68,7 +69,7 @@ std::size_t differences(const RaySet& set, const std::vector<shared::TraceHit>& 
 }
 
 TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
-    const Scene scene = builtin(GetParam());
+    const LoadedScene scene = builtin(GetParam());
     const std::vector<RaySet> sets = makeRaySets(device(), scene, uploadScene(device(), scene), 40, 30);
     std::vector<std::string> names;
     for (const RaySet& set : sets) {
@@ -77,7 +78,7 @@ TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
     }
     EXPECT_THAT(names, testing::ElementsAre("primary", "diffuse", "shadow", "crossings"));
     for (const TuningChoice& tuning : allTunings(device().info())) {
-        const DeviceScene deviceScene = uploadScene(device(), scene, tuning);
+        const DeviceScene deviceScene = uploadScene(device(), scene, Integrator::kPath, tuning);
         for (const RaySet& set : sets) {
             TraceKernel kernel(device(), deviceScene, set.mode, set.rays);
             kernel.run(2);
@@ -92,8 +93,8 @@ TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
 
 /// Each surface three times: all are met, and no walk ends at a place where two are.
 TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
-    const Scene once = builtin(GetParam());
-    Scene thrice = once;
+    const LoadedScene once = builtin(GetParam());
+    LoadedScene thrice = once;
     Geometry& geometry = thrice.geometry;
     for (int copy = 0; copy < 2; ++copy) {
         for (std::size_t i = 0; i < once.geometry.triangles.size(); ++i) {
@@ -107,8 +108,8 @@ TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
     const RaySet& crossings = sets.back();
     ASSERT_EQ(crossings.mode, shared::kTraceAllCrossings);
     for (const TuningChoice& tuning : allTunings(device().info())) {
-        const auto trace = [&](const Scene& scene) {
-            const DeviceScene deviceScene = uploadScene(device(), scene, tuning);
+        const auto trace = [&](const LoadedScene& scene) {
+            const DeviceScene deviceScene = uploadScene(device(), scene, Integrator::kPath, tuning);
             TraceKernel kernel(device(), deviceScene, crossings.mode, crossings.rays);
             kernel.run();
             return kernel.hits();
@@ -123,7 +124,7 @@ TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
 }
 
 TEST_P(RaySets, CountsAreThoseOfTheRays) {
-    const Scene scene = builtin(GetParam());
+    const LoadedScene scene = builtin(GetParam());
     const DeviceScene deviceScene = uploadScene(device(), scene);
     const std::uint32_t lanes = device().info().subgroupSize;
     for (const RaySet& set : makeRaySets(device(), scene, deviceScene, 40, 30)) {

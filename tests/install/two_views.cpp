@@ -22,24 +22,26 @@ int main(int argc, char** argv) {
     if (argc != 4) return 2;
     try {
         duolux::Device device("cpu");
-        duolux::Renderer renderer(device, duolux::loadScene(argv[1]));
-        duolux::RenderSettings settings = renderer.scene().render;
+        const duolux::LoadedScene scene = duolux::loadScene(argv[1]);
+        for (const duolux::Warning& warning : scene.warnings)
+            std::fprintf(stderr, "two_views: %s\n", warning.text.c_str());
+        duolux::Renderer renderer(device, scene);
+        duolux::RenderSettings settings = scene.settings;
         settings.width = settings.height = 32;
         settings.spp = 4;
         settings.layers = duolux::kLayerNormal;
-        renderer.setSettings(settings);
 
-        duolux::Camera camera = renderer.scene().camera;
+        duolux::Camera camera = scene.camera;
         for (const char* file : {argv[2], argv[3]}) {
             renderer.setCamera(camera);
-            const duolux::RenderOutput output = renderer.render();
+            const duolux::RenderOutput output = renderer.render(settings);
             const duolux::RadianceImage image = output.film.resolve();
             const std::vector<float> normals = output.film.resolve(duolux::kLayerNormal);
             const float* normal = &normals[3 * (settings.height / 3 * settings.width + settings.width / 2)];
-            std::printf("%s: radiance %.4f, normal %.2f %.2f %.2f\n", file,
-                        meanOf(image, renderer.scene().display), static_cast<double>(normal[0]),
-                        static_cast<double>(normal[1]), static_cast<double>(normal[2]));
-            duolux::writeImage(file, image, {.display = renderer.scene().display});
+            std::printf("%s: radiance %.4f, normal %.2f %.2f %.2f\n", file, meanOf(image, scene.display),
+                        static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                        static_cast<double>(normal[2]));
+            duolux::writeImage(file, image, {.display = scene.display});
             camera.position.x -= 100.0f;
         }
         return 0;

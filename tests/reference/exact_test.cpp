@@ -17,7 +17,7 @@ TEST_P(ReferenceExact, MatchesClosedForm) {
     reference::Settings settings;
     settings.width = exact.expected.width;
     settings.height = exact.expected.height;
-    settings.bounces = exact.scene.render.bounces;
+    settings.bounces = exact.scene.settings.bounces;
     settings.search = exact.search;
     settings.samples = exact.search == reference::LightSearch::kArea ? 256 : 12;
     std::vector<RadianceImage> renders;

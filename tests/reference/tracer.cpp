@@ -41,7 +41,7 @@ struct Walker {
 
 class Tracer {
   public:
-    Tracer(const Scene& scene, const Settings& settings)
+    Tracer(const LoadedScene& scene, const Settings& settings)
         : triangles_(scene.geometry), materialOf_(scene.geometry.materials), settings_(settings) {
         for (const Material& material : scene.materials) {
             const Reflectance& reflectance = scene.reflectanceOf(material);
@@ -202,7 +202,7 @@ class Moments {
 
 }  // namespace
 
-Estimates trace(const Scene& scene, const Settings& settings) {
+Estimates trace(const LoadedScene& scene, const Settings& settings) {
     const Tracer tracer(scene, settings);
     const Pinhole pinhole(scene.camera, settings.width, settings.height);
     Estimates result{settings.width, settings.height, settings.samples, {}};

@@ -36,6 +36,6 @@ struct Estimates {
 /// Brute-force path tracer for vector-valued light in double precision. The estimator is deliberately simple
 /// and different from the kernels: no Russian roulette, no multiple importance sampling, Mersenne twisters.
 /// Identical settings give identical numbers on any number of threads.
-Estimates trace(const Scene& scene, const Settings& settings);
+Estimates trace(const LoadedScene& scene, const Settings& settings);
 
 }  // namespace duolux::reference

@@ -70,7 +70,7 @@ TEST(Triangles, SphereAndBoxHaveTheirAreasAndFaceAsAsked) {
 
 /// Both methods for direct light must agree; one of them uses no emitter list, area, cosine or shadow ray.
 TEST(ReferenceTracer, LightSearchesAgree) {
-    Scene scene = mixedCornellBox();
+    LoadedScene scene = mixedCornellBox();
     // A lamp that is large enough to be hit by chance.
     for (glm::vec3& p : scene.geometry.positions) {
         if (p.y == 548.3f) p = {278.0f + 3.0f * (p.x - 278.0f), p.y, 279.0f + 3.0f * (p.z - 279.0f)};

@@ -16,13 +16,13 @@ namespace {
 class Bounces : public testing::TestWithParam<Integrator> {};
 
 TEST_P(Bounces, LastAndPreviousAreWhatTheyAdd) {
-    Scene scene = mixedCornellBox();
-    scene.render.width = scene.render.height = 16;
-    scene.render.spp = 64;
-    scene.render.integrator = GetParam();
+    LoadedScene scene = mixedCornellBox();
+    scene.settings.width = scene.settings.height = 16;
+    scene.settings.spp = 64;
+    scene.settings.integrator = GetParam();
     RenderStatistics statistics[4];
     for (std::uint32_t bounces = 1; bounces < 4; ++bounces) {
-        scene.render.bounces = bounces;
+        scene.settings.bounces = bounces;
         statistics[bounces] = render(device(), scene).statistics;
     }
     const double last = statistics[3].meanRadiance - statistics[2].meanRadiance;

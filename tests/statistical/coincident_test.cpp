@@ -21,9 +21,9 @@ glm::dvec3 meanOf(const RenderOutput& output) {
     return sum / static_cast<double>(image.visible.size());
 }
 
-double meanBy(Scene scene, Integrator integrator, std::uint32_t spp) {
-    scene.render.integrator = integrator;
-    scene.render.spp = spp;
+double meanBy(LoadedScene scene, Integrator integrator, std::uint32_t spp) {
+    scene.settings.integrator = integrator;
+    scene.settings.spp = spp;
     return meanOf(render(device(), scene)).y;
 }
 
@@ -36,11 +36,11 @@ Material absorbing() {
 class Coincident : public testing::Test {
   protected:
     Coincident() {
-        Scene& scene = builder_.scene;
+        LoadedScene& scene = builder_.scene;
         scene.reflectance = preset("global");
         scene.camera = {{0.02f, 0.03f, 3}, {0.02f, 0.03f, 0}, {0, 1, 0}, 10.0f};
-        scene.render.width = scene.render.height = 8;
-        scene.render.bounces = 0;
+        scene.settings.width = scene.settings.height = 8;
+        scene.settings.bounces = 0;
     }
     /// About the z axis; the front is above unless it is turned.
     void pane(float halfWidth, float z, const Material& material, bool turned = false) {
@@ -91,8 +91,8 @@ TEST_F(Coincident, FiltersAreMetInOneOrderByBothIntegrators) {
 class Lamp : public Coincident {
   protected:
     Lamp() {
-        Scene& scene = builder_.scene;
-        scene.render.bounces = 1;
+        LoadedScene& scene = builder_.scene;
+        scene.settings.bounces = 1;
         Material floor;
         floor.baseColor = glm::vec3(0.5f);
         builder_.quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, builder_.add(floor));
@@ -115,8 +115,8 @@ class Lamp : public Coincident {
         return material;
     }
     /// Compares both integrators with the same scene with separated surfaces.
-    void expectAs(const Scene& apart) {
-        const Scene together = builder_.scene;
+    void expectAs(const LoadedScene& apart) {
+        const LoadedScene together = builder_.scene;
         for (const bool up : {false, true}) {
             builder_.scene = apart;
             up ? lookUp() : lookAtFloor();
@@ -135,7 +135,7 @@ TEST_F(Lamp, OfTwoFacesShinesBothWays) {
         const SceneBuilder floor = builder_;
         for (const bool first : {true, false})
             plate(1.0f, first == downFirst ? 1.0f : 1.001f, lamp(), first == downFirst);
-        const Scene apart = builder_.scene;
+        const LoadedScene apart = builder_.scene;
         builder_ = floor;
         for (const bool first : {true, false})
             plate(1.0f, 1.0f, lamp(), first == downFirst);
@@ -150,7 +150,7 @@ TEST_F(Lamp, InThePlaneOfACeilingShines) {
     const SceneBuilder floor = builder_;
     plate(2.0f, 1.0f, ceiling, true);
     plate(0.5f, 0.999f, lamp(), true);
-    const Scene apart = builder_.scene;
+    const LoadedScene apart = builder_.scene;
     for (const bool lampFirst : {false, true}) {
         for (const bool ceilingDown : {false, true}) {
             // From below the ceiling is in front of a lamp only if it faces that way, and the lamp does not.
@@ -177,15 +177,15 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
     };
     // The film faces up like the floor, and comes after it in the scene: it is behind the floor unless it is
     // above.
-    const Scene above = withFilm(0.001f);
+    const LoadedScene above = withFilm(0.001f);
     const double expected = meanBy(above, Integrator::kPath, 512);
     builder_ = floor;
-    Scene together = floor.scene;
+    LoadedScene together = floor.scene;
     {
         SceneBuilder filmFirst;
         filmFirst.scene.reflectance = floor.scene.reflectance;
         filmFirst.scene.camera = floor.scene.camera;
-        filmFirst.scene.render = floor.scene.render;
+        filmFirst.scene.settings = floor.scene.settings;
         builder_ = filmFirst;
         plate(2.0f, 0.0f, film, false);
         Material floorMaterial;
@@ -207,7 +207,7 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
 }
 
 /// A plate a little above a ground of any size, and its shadow.
-Scene groundScene(float reach, bool tilted) {
+LoadedScene groundScene(float reach, bool tilted) {
     SceneBuilder builder;
     Material white, lamp = absorbing();
     white.baseColor = glm::vec3(0.8f);
@@ -217,11 +217,11 @@ Scene groundScene(float reach, bool tilted) {
     builder.quad({-g, 0, -g}, {-g, 0, g}, {g, 0, g}, {g, 0, -g}, w);
     builder.quad({-.5f, .1f, -.5f}, {-.5f, .1f, .5f}, {.5f, .1f, .5f}, {.5f, .1f, -.5f}, w);
     builder.quad({-.1f, 3, -.1f}, {.1f, 3, -.1f}, {.1f, 3, .1f}, {-.1f, 3, .1f}, l);
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = preset("one-bounce");
     scene.camera = {{1.5f, 2.0f, 3.0f}, {0, 0, 0}, {0, 1, 0}, 30.0f};
-    scene.render.width = scene.render.height = 32;
-    scene.render.bounces = 1;
+    scene.settings.width = scene.settings.height = 32;
+    scene.settings.bounces = 1;
     if (tilted) {
         const glm::dmat3 turn(0.6, 0.8, 0.0, -0.64, 0.48, 0.6, 0.48, -0.36, 0.8);
         for (glm::vec3& p : scene.geometry.positions)
@@ -236,7 +236,7 @@ TEST(LargeTriangles, AGroundOfAnySizeHasTheSamePicture) {
     const double expected = meanBy(groundScene(8.0f, false), Integrator::kPath, 64);
     for (const float reach : {8.0f, 3e3f, 1e5f}) {
         for (const bool tilted : {false, true}) {
-            const Scene scene = groundScene(reach, tilted);
+            const LoadedScene scene = groundScene(reach, tilted);
             EXPECT_NEAR(meanBy(scene, Integrator::kPath, 64), expected, 0.01 * expected) << reach << tilted;
             EXPECT_NEAR(meanBy(scene, Integrator::kLight, 256), expected, 0.04 * expected) << reach << tilted;
         }
@@ -245,7 +245,7 @@ TEST(LargeTriangles, AGroundOfAnySizeHasTheSamePicture) {
 
 // Every layout and kernel has the same bits, with planes, too.
 TEST(LargeTriangles, AllLayoutsHaveTheSameBits) {
-    const Scene scene = groundScene(1e5f, true);
+    const LoadedScene scene = groundScene(1e5f, true);
     std::optional<Film> first;
     for (const TuningChoice& tuning : allTunings(device().info())) {
         if (tuning.layout == Layout::kRayQuery) continue;

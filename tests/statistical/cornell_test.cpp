@@ -16,51 +16,51 @@ namespace {
 
 struct CornellCase {
     const char* name;
-    Scene scene;
+    LoadedScene scene;
     std::uint32_t bounces;
 };
 
-Scene boxOf(const Reflectance& reflectance) {
-    Scene scene = cornellBox();
+LoadedScene boxOf(const Reflectance& reflectance) {
+    LoadedScene scene = cornellBox();
     scene.reflectance = reflectance;
     return scene;
 }
 
 /// The box in which the scene's reflectance would let light through everything, but one block does not.
-Scene oneShadow() {
-    Scene scene = boxOf(preset("local"));
+LoadedScene oneShadow() {
+    LoadedScene scene = boxOf(preset("local"));
     scene.materials[kShort].reflectance = preset("global");
     return scene;
 }
 
-Scene lamps(const char* name) {
-    Scene scene = lampsCornellBox();
+LoadedScene lamps(const char* name) {
+    LoadedScene scene = lampsCornellBox();
     scene.reflectance = preset(name);
     return scene;
 }
 
 /// Not square, tilted, off the axis, with a wider angle; and a point inside the square of reflectances.
-Scene tiltedView() {
-    Scene scene = boxOf(blendReflectance(0.6f, 0.4f));
+LoadedScene tiltedView() {
+    LoadedScene scene = boxOf(blendReflectance(0.6f, 0.4f));
     scene.camera = {{350, 350, -400}, {250, 200, 200}, {0.4f, 1, 0.1f}, 55.0f};
-    scene.render.width = 44;
-    scene.render.height = 24;
+    scene.settings.width = 44;
+    scene.settings.height = 24;
     return scene;
 }
 
 /// By parallel rays, from above and beside, which meet the box from the outside, too.
-Scene orthographicView() {
-    Scene scene = boxOf(preset("global"));
+LoadedScene orthographicView() {
+    LoadedScene scene = boxOf(preset("global"));
     scene.camera = {{400, 500, -300}, {250, 250, 250}, {0.2f, 1, 0}};
     scene.camera.type = CameraType::kOrthographic;
     scene.camera.height = 700.0f;
-    scene.render.width = 40;
-    scene.render.height = 28;
+    scene.settings.width = 40;
+    scene.settings.height = 28;
     return scene;
 }
 
 /// Visible light passes too, turned from invisible: every surface is seen through, and scatters.
-Scene seeThrough() {
+LoadedScene seeThrough() {
     return boxOf({matrix(0.5f, 0, 0.75f, 0), matrix(1, 0, 0.5f, 0)});
 }
 
@@ -89,10 +89,10 @@ class Cornell : public testing::TestWithParam<CornellCase> {};
 
 TEST_P(Cornell, MatchesReference) {
     CornellCase cornell = GetParam();
-    cornell.scene.render.bounces = cornell.bounces;
+    cornell.scene.settings.bounces = cornell.bounces;
     reference::Settings settings;
-    settings.width = cornell.scene.render.width;
-    settings.height = cornell.scene.render.height;
+    settings.width = cornell.scene.settings.width;
+    settings.height = cornell.scene.settings.height;
     settings.bounces = cornell.bounces;
     settings.samples = 2048;
     const reference::Estimates expected = reference::trace(cornell.scene, settings);

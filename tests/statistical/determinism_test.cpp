@@ -17,33 +17,33 @@ namespace duolux::test {
 
 namespace {
 
-Scene scene(std::uint32_t seed = 5) {
-    Scene result = mixedCornellBox();
-    result.render.width = 19;
-    result.render.height = 13;
-    result.render.spp = 22;
-    result.render.bounces = 5;
-    result.render.seed = seed;
+LoadedScene scene(std::uint32_t seed = 5) {
+    LoadedScene result = mixedCornellBox();
+    result.settings.width = 19;
+    result.settings.height = 13;
+    result.settings.spp = 22;
+    result.settings.bounces = 5;
+    result.settings.seed = seed;
     return result;
 }
 
-Film filmOf(const Scene& what, const RenderControl& control = {}) {
+Film filmOf(const LoadedScene& what, const RenderControl& control = {}) {
     return render(device(), what, control).film;
 }
 
 TEST(Determinism, SameSeedSameBits) {
-    for (Scene same : {scene(), byLight(scene())}) {
+    for (LoadedScene same : {scene(), byLight(scene())}) {
         EXPECT_TRUE(sameBits(filmOf(same), filmOf(same)));
-        same.render.sampler = Sampler::kIndependent;
+        same.settings.sampler = Sampler::kIndependent;
         EXPECT_TRUE(sameBits(filmOf(same), filmOf(same)));
     }
 }
 
 TEST(Determinism, SeedsAndSamplersDiffer) {
-    for (const auto& variant : {+[](Scene s) { return s; }, &byLight}) {
+    for (const auto& variant : {+[](LoadedScene s) { return s; }, &byLight}) {
         EXPECT_FALSE(sameBits(filmOf(variant(scene(5))), filmOf(variant(scene(6)))));
-        Scene independent = variant(scene(5));
-        independent.render.sampler = Sampler::kIndependent;
+        LoadedScene independent = variant(scene(5));
+        independent.settings.sampler = Sampler::kIndependent;
         EXPECT_FALSE(sameBits(filmOf(variant(scene(5))), filmOf(independent)));
     }
 }
@@ -96,14 +96,14 @@ TEST(Determinism, TheFilmOfLightPathsIsTheSameInAnyBuffers) {
 }
 
 TEST(Determinism, LightPathsAreNumberedBeyond32Bits) {
-    Scene far = byLight(scene());
-    far.render.width = 32;
-    far.render.height = 16;
+    LoadedScene far = byLight(scene());
+    far.settings.width = 32;
+    far.settings.height = 16;
     const auto film = [&](std::uint32_t first, std::uint32_t pathsPerDispatch) {
         RenderControl control;
         control.firstSample = first;
         control.maxPixelsPerDispatch = pathsPerDispatch;
-        far.render.spp = first + 4;
+        far.settings.spp = first + 4;
         return filmOf(far, control);
     };
     constexpr std::uint32_t kBeyond = 1u << 23;  // times 512 pixels: path 2^32
@@ -114,10 +114,10 @@ TEST(Determinism, LightPathsAreNumberedBeyond32Bits) {
 
 TEST(Determinism, LightPathsOfManyCrossingsAreWhole) {
     // Panes that pass and scatter: particles meet hundreds of surfaces.
-    Scene stack = byLight(stackedPanesCase(100).scene);
+    LoadedScene stack = byLight(stackedPanesCase(100).scene);
     stack.camera.vfov = 60.0f;
-    stack.render.width = stack.render.height = 32;
-    stack.render.spp = 24;
+    stack.settings.width = stack.settings.height = 32;
+    stack.settings.spp = 24;
     RenderControl single;
     single.maxSamplesPerLane = 1;
     RenderControl parts;
@@ -142,9 +142,9 @@ TEST(Determinism, LightPathsOfManyCrossingsAreWhole) {
 TEST(Determinism, PathsOfManyCrossingsAreWhole) {
     // A hundred surfaces per ray. Some drivers silently end long loops; such dispatches are traced again in
     // smaller parts.
-    Scene panes = stackedPanesCase(100).scene;
-    panes.render.width = panes.render.height = 10;
-    panes.render.spp = 9;
+    LoadedScene panes = stackedPanesCase(100).scene;
+    panes.settings.width = panes.settings.height = 10;
+    panes.settings.spp = 9;
     RenderControl single;
     single.maxSamplesPerDispatch = 1;
     single.maxPixelsPerDispatch = 8;
@@ -166,13 +166,13 @@ TEST(Determinism, PathsOfManyCrossingsAreWhole) {
 }
 
 /// Panes that scatter and pass most of the light: a path meets thousands of surfaces.
-Scene thickStack() {
-    Scene result = stackedPanesCase(30).scene;
+LoadedScene thickStack() {
+    LoadedScene result = stackedPanesCase(30).scene;
     result.reflectance = blendReflectance(0.97f, 1.0f);
     for (Material& material : result.materials)
         material.reflectance.reset();
-    result.render.width = result.render.height = 32;
-    result.render.bounces = 1;
+    result.settings.width = result.settings.height = 32;
+    result.settings.bounces = 1;
     return result;
 }
 
@@ -182,8 +182,8 @@ void expectShortDispatches(const RenderStatistics& statistics) {
 }
 
 TEST(Determinism, DispatchesAreBoundedWhereAPathMeetsManySurfaces) {
-    Scene stack = thickStack();
-    stack.render.spp = 20;
+    LoadedScene stack = thickStack();
+    stack.settings.spp = 20;
     RenderControl parts;  // many dispatches of a pass are in flight when the first is found to be too long
     parts.maxPixelsPerDispatch = 128;
     const RenderOutput output = render(device(), stack, parts);
@@ -198,8 +198,8 @@ TEST(Determinism, DispatchesAreBoundedWhereAPathMeetsManySurfaces) {
 }
 
 TEST(Determinism, ATimeLimitLeavesNoPixelWithoutSample) {
-    Scene stack = thickStack();
-    stack.render.spp = 100'000;
+    LoadedScene stack = thickStack();
+    stack.settings.spp = 100'000;
     RenderControl control;
     control.timeLimit = 0.001;
     const RenderOutput output = render(device(), stack, control);
@@ -216,9 +216,9 @@ TEST(Determinism, ATimeLimitLeavesNoPixelWithoutSample) {
 
 TEST(Determinism, ARenderLeavesNothingBehindOnTheDevice) {
     const Film before = filmOf(scene());
-    Scene other = cornellBox();
-    other.render.width = other.render.height = 31;
-    other.render.spp = 3;
+    LoadedScene other = cornellBox();
+    other.settings.width = other.settings.height = 31;
+    other.settings.spp = 3;
     filmOf(other);
     EXPECT_TRUE(sameBits(before, filmOf(scene())));
 }

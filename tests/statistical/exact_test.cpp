@@ -45,11 +45,11 @@ double varianceBetween(const Renders& renders) {
 
 TEST(ClosedForm, LocalHasNoNoiseWithinASurface) {
     // A camera that sees so little that every sample meets about the same point.
-    Scene scene = cornellBox();
+    LoadedScene scene = cornellBox();
     scene.reflectance = *presetReflectance("local");
     scene.camera.vfov = 1e-3f;
     scene.camera.target = {100.0f, 200.0f, 559.2f};  // the back wall
-    scene.render.width = scene.render.height = 8;
+    scene.settings.width = scene.settings.height = 8;
     RenderControl sampled;
     sampled.directLight = DirectLight::kSampled;
     const Renders exact = renderSeeds(scene, 1, 8);
@@ -60,8 +60,8 @@ TEST(ClosedForm, LocalHasNoNoiseWithinASurface) {
 }
 
 TEST(ClosedForm, IsChosenWhereItAppliesAndPays) {
-    Scene scene = cornellBox();
-    scene.render.width = scene.render.height = 4;
+    LoadedScene scene = cornellBox();
+    scene.settings.width = scene.settings.height = 4;
     const auto applies = [&](std::string_view preset) {
         scene.reflectance = *presetReflectance(preset);
         return renderSeeds(scene, 1, 1).directLightInClosedForm;

@@ -59,7 +59,7 @@ std::uint64_t hashOf(const Film& film) {
     return XXH3_64bits_withSeed(&quantum, sizeof quantum, hash);
 }
 
-Scene loadNamed(const std::string& name) {
+LoadedScene loadNamed(const std::string& name) {
     const SceneChoices choices{.size = glm::uvec2(40, 30)};
     if (name == "two-spheres") {
         const TemporaryFolder folder;
@@ -72,11 +72,11 @@ Scene loadNamed(const std::string& name) {
 class FilmBits : public testing::TestWithParam<Expected> {};
 
 TEST_P(FilmBits, AreTheSameAsBefore) {
-    Scene scene = loadNamed(GetParam().scene);
+    LoadedScene scene = loadNamed(GetParam().scene);
     scene.reflectance = *presetReflectance(GetParam().preset);
-    scene.render.spp = 4;
-    scene.render.bounces = 6;
-    scene.render.integrator = Integrator::kPath;
+    scene.settings.spp = 4;
+    scene.settings.bounces = 6;
+    scene.settings.integrator = Integrator::kPath;
     EXPECT_EQ(hashOf(render(device(), scene).film), GetParam().path);
     EXPECT_EQ(hashOf(render(device(), byLight(scene)).film), GetParam().light);
 }

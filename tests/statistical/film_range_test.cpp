@@ -14,13 +14,13 @@ namespace {
 class FilmRange : public testing::TestWithParam<Integrator> {
   protected:
     FilmRange() {
-        Scene& scene = builder_.scene;
+        LoadedScene& scene = builder_.scene;
         scene.reflectance = *presetReflectance("global");
         scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 20.0f};
-        scene.render.width = scene.render.height = 8;
-        scene.render.bounces = 0;
-        scene.render.spp = 256;
-        scene.render.integrator = GetParam();
+        scene.settings.width = scene.settings.height = 8;
+        scene.settings.bounces = 0;
+        scene.settings.spp = 256;
+        scene.settings.integrator = GetParam();
     }
 
     void panel(float left, float right, float visible, float invisible = 0.0f) {
@@ -49,7 +49,7 @@ class FilmRange : public testing::TestWithParam<Integrator> {
 
 // A lamp 10^17 times as bright, which the camera does not see. (Hardly any light path begins at the panel.)
 TEST_P(FilmRange, DimLightIsKeptBesideBrightEmittersOutOfSight) {
-    builder_.scene.render.integrator = Integrator::kPath;
+    builder_.scene.settings.integrator = Integrator::kPath;
     panel(-2.0f, 2.0f, 1e-5f);
     panel(30.0f, 31.0f, 0.0f, 1e12f);
     const RenderOutput output = render(device(), builder_.scene);
@@ -77,12 +77,12 @@ INSTANTIATE_TEST_SUITE_P(Integrators, FilmRange, testing::Values(Integrator::kPa
 // An emitter of a pixel that the first look misses, and 10^14 times as bright as the rest.
 TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
     SceneBuilder builder;
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = *presetReflectance("global");
     scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40.0f};
-    scene.render.width = scene.render.height = 256;
-    scene.render.bounces = 0;
-    scene.render.spp = 1;
+    scene.settings.width = scene.settings.height = 256;
+    scene.settings.bounces = 0;
+    scene.settings.spp = 1;
     Material wall, spot;
     wall.emission.visible = glm::vec3(1.0f);
     spot.emission.visible = glm::vec3(1e14f);
@@ -91,7 +91,7 @@ TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
     const float pixel = 2.0f * 4.0f * std::tan(glm::radians(20.0f)) / 256.0f, z = 1e-3f;
     builder.quad({0.1f * pixel, 0.1f * pixel, z}, {0.9f * pixel, 0.1f * pixel, z},
                  {0.9f * pixel, 0.9f * pixel, z}, {0.1f * pixel, 0.9f * pixel, z}, builder.add(spot));
-    scene.render.spp = 16;
+    scene.settings.spp = 16;
     const RenderOutput output = render(device(), scene);
     EXPECT_TRUE(output.statistics.filmOverflowed);
     const RadianceImage image = output.film.resolve();

@@ -17,8 +17,8 @@ inline bool sameBits(const Film& a, const Film& b) {
            std::ranges::equal(a.layerSums(), b.layerSums());
 }
 
-inline Scene byLight(Scene scene) {
-    scene.render.integrator = Integrator::kLight;
+inline LoadedScene byLight(LoadedScene scene) {
+    scene.settings.integrator = Integrator::kLight;
     return scene;
 }
 

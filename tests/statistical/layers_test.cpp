@@ -31,12 +31,12 @@ std::vector<Vec3> normalsOf(const Film& film) {
     return normals;
 }
 
-Scene withNormals(Scene scene, std::uint32_t width, std::uint32_t height, std::uint32_t spp) {
-    scene.render.width = width;
-    scene.render.height = height;
-    scene.render.spp = spp;
-    scene.render.bounces = 2;
-    scene.render.layers = kLayerNormal;
+LoadedScene withNormals(LoadedScene scene, std::uint32_t width, std::uint32_t height, std::uint32_t spp) {
+    scene.settings.width = width;
+    scene.settings.height = height;
+    scene.settings.spp = spp;
+    scene.settings.bounces = 2;
+    scene.settings.layers = kLayerNormal;
     return scene;
 }
 
@@ -48,9 +48,9 @@ struct Expected {
 };
 
 template <typename NormalAt>
-Expected expectedNormals(const Scene& scene, NormalAt normalAt) {
+Expected expectedNormals(const LoadedScene& scene, NormalAt normalAt) {
     constexpr int kGrid = 24;  // rays across a pixel
-    const auto width = scene.render.width, height = scene.render.height;
+    const auto width = scene.settings.width, height = scene.settings.height;
     const reference::Pinhole camera(scene.camera, width, height);
     const reference::Triangles triangles(scene.geometry);
     std::vector<reference::Crossing> crossings;
@@ -83,7 +83,7 @@ Expected expectedNormals(const Scene& scene, NormalAt normalAt) {
 }
 
 /// 1024 points of a Sobol sequence and a grid of 576 differ by about 0.01 at an edge.
-void expectNormals(const Scene& scene, const Expected& expected, std::size_t uniformAtLeast) {
+void expectNormals(const LoadedScene& scene, const Expected& expected, std::size_t uniformAtLeast) {
     const std::vector<Vec3> normals = normalsOf(render(device(), scene).film);
     ASSERT_EQ(normals.size(), expected.means.size());
     std::size_t uniform = 0;
@@ -104,7 +104,7 @@ Vec3 flatNormal(const Vec3&, const Vec3& normal) {
 // A roof seen from above, one side of which shows its back; nothing around it.
 TEST(NormalLayer, OfPlanesIsExactOnBothSides) {
     SceneBuilder builder;
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     Material lit, oneSided;
     lit.emission.visible = glm::vec3(1.0f);
     oneSided.sides = Sides::kFront;
@@ -112,8 +112,8 @@ TEST(NormalLayer, OfPlanesIsExactOnBothSides) {
     builder.quad({0, -1, 1}, {0, 1, 1}, {1, 1, 0}, {1, -1, 0}, builder.add(oneSided));  // its back
     scene.camera = {{0, 0, 8}, {0, 0, 0}, {0, 1, 0}, 30.0f};
     for (const std::uint32_t bounces : {0u, 2u}) {
-        Scene rendered = withNormals(scene, 16, 16, 1024);
-        rendered.render.bounces = bounces;
+        LoadedScene rendered = withNormals(scene, 16, 16, 1024);
+        rendered.settings.bounces = bounces;
         const std::vector<Vec3> normals = normalsOf(render(device(), rendered).film);
         const auto expectNear = [&](int x, int y, const Vec3& expected) {
             EXPECT_LT(glm::length(normals[16 * y + x] - expected), 1e-6) << x << ' ' << y;
@@ -127,7 +127,7 @@ TEST(NormalLayer, OfPlanesIsExactOnBothSides) {
 }
 
 TEST(NormalLayer, OfFlatTrianglesIsThatOfTheReference) {
-    const Scene scene = withNormals(cornellBox(), 24, 24, 1024);
+    const LoadedScene scene = withNormals(cornellBox(), 24, 24, 1024);
     expectNormals(scene, expectedNormals(scene, flatNormal), 250);
 }
 
@@ -137,12 +137,12 @@ TEST(NormalLayer, OfSmoothTrianglesIsInterpolated) {
     for (const Facing facing : {Facing::kOutward, Facing::kInward}) {
         SceneBuilder builder;
         builder.sphere(centre, 1.5f, 1, facing, builder.add(Material{}));
-        Scene& scene = builder.scene;
+        LoadedScene& scene = builder.scene;
         for (const glm::vec3& position : scene.geometry.positions)
             scene.geometry.normals.push_back(glm::normalize(position - centre));
         scene.geometry.normalIndices = scene.geometry.triangles;
         scene.camera = {centre + glm::vec3(1, 2, 5), centre, {0, 1, 0}, 40.0f};
-        const Scene rendered = withNormals(scene, 24, 24, 1024);
+        const LoadedScene rendered = withNormals(scene, 24, 24, 1024);
         const Expected expected = expectedNormals(rendered, [&](const Vec3& hit, const Vec3& flat) {
             const Vec3 smooth = glm::normalize(hit - Vec3(centre));
             return glm::dot(smooth, flat) < 0.0 ? -smooth : smooth;
@@ -161,26 +161,26 @@ TEST(NormalLayer, OfSmoothTrianglesIsInterpolated) {
 
 // The first surface, whatever passes through it.
 TEST(NormalLayer, DependsOnNothingButGeometry) {
-    const Scene first = withNormals(cornellBox(), 17, 11, 9);
+    const LoadedScene first = withNormals(cornellBox(), 17, 11, 9);
     const Film film = render(device(), first).film;
-    const auto expectSame = [&](const Scene& scene, const RenderControl& control = {}) {
+    const auto expectSame = [&](const LoadedScene& scene, const RenderControl& control = {}) {
         EXPECT_TRUE(std::ranges::equal(render(device(), scene, control).film.layerSums(), film.layerSums()));
     };
     for (const Preset& preset : presets()) {
         SCOPED_TRACE(preset.name);
         for (const std::uint32_t bounces : {0u, 1u, 5u}) {
-            Scene scene = first;
+            LoadedScene scene = first;
             scene.reflectance = blendReflectance(preset.t, preset.o);
-            scene.render.bounces = bounces;
+            scene.settings.bounces = bounces;
             expectSame(scene);
         }
     }
-    Scene mixed = withNormals(mixedCornellBox(), 17, 11, 9);
+    LoadedScene mixed = withNormals(mixedCornellBox(), 17, 11, 9);
     mixed.geometry = first.geometry;
     for (std::uint32_t& material : mixed.geometry.materials)
         material %= static_cast<std::uint32_t>(mixed.materials.size());
     expectSame(mixed);
-    Scene dark = first;
+    LoadedScene dark = first;
     for (Material& material : dark.materials)
         material.emission = {};
     expectSame(dark);
@@ -194,9 +194,9 @@ TEST(NormalLayer, DependsOnNothingButGeometry) {
 }
 
 TEST(NormalLayer, LeavesRadianceAsItIs) {
-    Scene scene = withNormals(mixedCornellBox(), 19, 13, 7);
+    LoadedScene scene = withNormals(mixedCornellBox(), 19, 13, 7);
     const Film with = render(device(), scene).film;
-    scene.render.layers = 0;
+    scene.settings.layers = 0;
     const Film without = render(device(), scene).film;
     EXPECT_TRUE(without.layerSums().empty());
     EXPECT_FALSE(sameBits(with, without));
@@ -209,7 +209,7 @@ TEST(NormalLayer, LeavesRadianceAsItIs) {
 // By parts of all kinds: dispatches, states to resume from, ranges of samples, dispatches that the driver
 // ends early.
 TEST(NormalLayer, IsTheSameBitsHoweverTheWorkIsSplit) {
-    const Scene scene = withNormals(mixedCornellBox(), 19, 13, 21);
+    const LoadedScene scene = withNormals(mixedCornellBox(), 19, 13, 21);
     const Film whole = render(device(), scene).film;
     std::vector<RenderState> states;
     RenderControl inParts;
@@ -230,15 +230,15 @@ TEST(NormalLayer, IsTheSameBitsHoweverTheWorkIsSplit) {
     Film sum(whole.width(), whole.height(), whole.quantum(), kLayerNormal);
     const std::uint32_t bounds[] = {0, 1, 8, 21};
     for (const int i : {2, 0, 1}) {
-        Scene range = scene;
-        range.render.spp = bounds[i + 1];
+        LoadedScene range = scene;
+        range.settings.spp = bounds[i + 1];
         RenderControl control;
         control.firstSample = bounds[i];
         sum.add(render(device(), range, control).film);
     }
     EXPECT_TRUE(sameBits(sum, whole));
 
-    const Scene panes = withNormals(stackedPanesCase(100).scene, 24, 24, 9);
+    const LoadedScene panes = withNormals(stackedPanesCase(100).scene, 24, 24, 9);
     RenderControl oneByOne;
     oneByOne.maxSamplesPerLane = 1;
     const RenderOutput panesWhole = render(device(), panes);

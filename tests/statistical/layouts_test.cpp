@@ -21,7 +21,7 @@ namespace {
 
 struct LayoutCase {
     std::string name;
-    Scene scene;
+    LoadedScene scene;
 };
 
 /// For messages of the test framework.
@@ -31,22 +31,22 @@ void PrintTo(const LayoutCase& c, std::ostream* out) {
 
 std::vector<LayoutCase> layoutCases() {
     std::vector<LayoutCase> cases;
-    const auto add = [&](const std::string& name, Scene scene) {
-        scene.render.width = 19;
-        scene.render.height = 13;
-        scene.render.spp = 5;
-        scene.render.bounces = 4;
+    const auto add = [&](const std::string& name, LoadedScene scene) {
+        scene.settings.width = 19;
+        scene.settings.height = 13;
+        scene.settings.spp = 5;
+        scene.settings.bounces = 4;
         cases.push_back({name + "Path", scene});
         cases.push_back({name + "Light", byLight(scene)});
     };
     for (const char* preset : {"global", "shadowless", "one-bounce", "local", "mixed"}) {
         const bool mixed = preset == std::string("mixed");
-        Scene scene = mixed ? mixedCornellBox() : cornellBox();
+        LoadedScene scene = mixed ? mixedCornellBox() : cornellBox();
         if (!mixed) scene.reflectance = *presetReflectance(preset);
         add(preset == std::string("one-bounce") ? "oneBounce" : preset, scene);
     }
     // Much light is found by rays that look for emitters alone, in a tree of these.
-    Scene glowing = cornellBox();
+    LoadedScene glowing = cornellBox();
     glowing.reflectance = *presetReflectance("shadowless");
     for (const CornellMaterial material : {kRed, kGreen, kShort, kTall})
         glowing.materials[material].emission = {glm::vec3(1.0f), glm::vec3(0.5f), Sides::kBoth};
@@ -65,7 +65,7 @@ const TuningChoice kByRayQuery{Layout::kRayQuery, {}};
 class Layouts : public testing::TestWithParam<LayoutCase> {};
 
 TEST_P(Layouts, OfOurOwnTreeGiveTheSameBits) {
-    const Scene& scene = GetParam().scene;
+    const LoadedScene& scene = GetParam().scene;
     const Film expected = render(device(), scene).film;
     for (const TuningChoice& choice : allTunings(device().info())) {
         if (choice.layout == Layout::kRayQuery) continue;
@@ -83,8 +83,8 @@ TEST_P(Layouts, OfTheDriversTreeGiveTheSamePicture) {
         EXPECT_THROW(render(device(), GetParam().scene, controlOf(kByRayQuery)), UsageError);
         return;
     }
-    Scene scene = GetParam().scene;
-    const bool lightPaths = scene.render.integrator == Integrator::kLight;
+    LoadedScene scene = GetParam().scene;
+    const bool lightPaths = scene.settings.integrator == Integrator::kLight;
     const RenderOutput ours = render(device(), scene);
     const RenderOutput theirs = render(device(), scene, controlOf(kByRayQuery));
     EXPECT_EQ(theirs.statistics.tuning.layout, Layout::kRayQuery);

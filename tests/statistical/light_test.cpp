@@ -28,7 +28,7 @@ class LightExact : public testing::TestWithParam<ExactCase> {};
 
 TEST_P(LightExact, MatchesClosedForm) {
     const ExactCase& exact = GetParam();
-    const std::uint32_t pixels = exact.scene.render.width * exact.scene.render.height;
+    const std::uint32_t pixels = exact.scene.settings.width * exact.scene.settings.height;
     expectAgreement(exact.name + "Light", renderByLight(exact.scene, (1u << 17) / pixels, 16), exact.expected,
                     {.relative = exact.relative, .lightPaths = true});
 }
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Nightly, LightExact, testing::ValuesIn(everyOther(cases
 
 struct PairCase {
     std::string name;
-    Scene scene;
+    LoadedScene scene;
 };
 
 /// For messages of the test framework.
@@ -67,18 +67,18 @@ Reflectance glowing() {
     return {matrix(0.5f, 0, 0.5f, 0), matrix(1, 0, 0.25f, 0)};
 }
 
-Scene twoSpheres(const Reflectance& reflectance) {
+LoadedScene twoSpheres(const Reflectance& reflectance) {
     const TemporaryFolder folder;
     writeTwoSpheres(folder.path(), 2000);
-    Scene scene = loadScene(folder.path() / "two_spheres.json");
+    LoadedScene scene = loadScene(folder.path() / "two_spheres.json");
     scene.reflectance = reflectance;
-    scene.render.width = scene.render.height = 32;
-    scene.render.bounces = 4;
+    scene.settings.width = scene.settings.height = 32;
+    scene.settings.bounces = 4;
     return scene;
 }
 
 /// A coarse sphere with smooth normals, far from those of its faces, above a floor.
-Scene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kBoth) {
+LoadedScene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kBoth) {
     SceneBuilder builder;
     Material grey;
     grey.name = "grey";
@@ -97,17 +97,17 @@ Scene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kBoth) {
     lamp.emission = {{20, 15, 10}, {5, 10, 15}, Sides::kFront};
     builder.quad({-1.5f, 4, 0}, {-1.5f, 3, 1}, {-2.5f, 2, 0}, {-2.5f, 3, -1}, builder.add(lamp));
     geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = reflectance;
     scene.camera = {{0.5f, 2.5f, 5}, {0, 0.7f, 0}, {0, 1, 0}, 40.0f};
-    scene.render.width = scene.render.height = 32;
-    scene.render.bounces = 3;
+    scene.settings.width = scene.settings.height = 32;
+    scene.settings.bounces = 3;
     return scene;
 }
 
 /// A floor whose normals lean far to one side, and the walls beside it, which only the floor lights: the lamp
 /// is low and shines down.
-Scene leaningFloor() {
+LoadedScene leaningFloor() {
     SceneBuilder builder;
     Material grey;
     grey.name = "grey";
@@ -127,11 +127,11 @@ Scene leaningFloor() {
     builder.quad({-0.4f, 0.4f, -0.4f}, {-0.2f, 0.4f, -0.4f}, {-0.2f, 0.4f, 0}, {-0.4f, 0.4f, 0},
                  builder.add(lamp));
     geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = preset("global");
     scene.camera = {{0, 1.2f, 4.5f}, {0, 0.9f, 0}, {0, 1, 0}, 38.0f};
-    scene.render.width = scene.render.height = 32;
-    scene.render.bounces = 3;
+    scene.settings.width = scene.settings.height = 32;
+    scene.settings.bounces = 3;
     return scene;
 }
 
@@ -153,7 +153,7 @@ std::vector<PairCase> pairCases() {
     // Seen through, a sphere would scatter on its inside, too.
     cases.push_back({"SmoothSphereOneSided", smoothSphere(fullReflectance(), Sides::kFront)});
     // Metal, flat and with normals that lean: shooting samples it in its own mode.
-    const auto ofMetal = [](Scene scene, float roughness) {
+    const auto ofMetal = [](LoadedScene scene, float roughness) {
         for (Material& material : scene.materials) {
             material.metallic = material.emission.any() ? 0.0f : 0.8f;
             material.roughness = roughness;
@@ -165,13 +165,13 @@ std::vector<PairCase> pairCases() {
     cases.push_back({"MetalSphereGlossy", ofMetal(smoothSphere(fullReflectance()), 0.4f)});
     cases.push_back({"MetalFloorRough", ofMetal(leaningFloor(), 0.8f)});
     // Points beside the lamp, or alone.
-    Scene lit = smoothSphere(fullReflectance());
+    LoadedScene lit = smoothSphere(fullReflectance());
     lit.pointEmitters = {{{-2, 3, 0.5f}, {30, 20, 10}, {5, 10, 15}}, {{1.5f, 1.5f, 1.5f}, {1, 2, 3}, {}}};
     cases.push_back({"PointsAndLamp", lit});
     for (Material& material : lit.materials)
         material.emission = {};
     cases.push_back({"PointsAlone", lit});
-    Scene parallel = leaningFloor();
+    LoadedScene parallel = leaningFloor();
     parallel.camera.type = CameraType::kOrthographic;
     parallel.camera.height = 3.0f;
     cases.push_back({"Orthographic", parallel});
@@ -195,9 +195,9 @@ INSTANTIATE_TEST_SUITE_P(Nightly, Pair, testing::ValuesIn(everyOther(pairCases()
 /// Russian roulette is only for the component that is not displayed. The number of rays of identical paths
 /// shows this.
 TEST(LightPaths, WhatIsDisplayedIsAlwaysConnected) {
-    Scene scene = byLight(emptyCornellBox());
+    LoadedScene scene = byLight(emptyCornellBox());
     scene.reflectance = preset("global");
-    scene.render.spp = 64;
+    scene.settings.spp = 64;
     const auto raysToCamera = [&](glm::vec2 display) {
         scene.display = display;
         return render(device(), scene).statistics.shadowRays;
@@ -221,14 +221,14 @@ TEST(LightPaths, ManyTimesBrighterThanItsEmitterIsHeld) {
     const float a = 2e-3f, b = 1e-3f, h = 5e-4f;
     builder.quad({-a, 0, a}, {a, 0, a}, {a, 0, -a}, {-a, 0, -a}, builder.add(floor));
     builder.quad({-b, h, -b}, {b, h, -b}, {b, h, b}, {-b, h, b}, builder.add(lamp));
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = {matrix(0.0f, 0.0f, 1e6f, 0.0f), {matrix(1.0f, 0.0f, 0.0f, 0.0f)}};
     scene.camera = {{0, 3e-4f, 0}, {0, 0, 0}, {0, 0, 1}, 60.0f};
-    scene.render.width = scene.render.height = 2;
-    scene.render.bounces = 1;
-    scene.render.spp = 1u << 14;
+    scene.settings.width = scene.settings.height = 2;
+    scene.settings.bounces = 1;
+    scene.settings.spp = 1u << 14;
     const RenderOutput gathered = render(device(), scene);
-    scene.render.integrator = Integrator::kLight;
+    scene.settings.integrator = Integrator::kLight;
     const RenderOutput shot = render(device(), scene);
     EXPECT_FALSE(gathered.statistics.filmOverflowed);
     EXPECT_FALSE(shot.statistics.filmOverflowed);
@@ -246,11 +246,11 @@ TEST(LightPaths, SumsOfGrowingLightAreTheSameBits) {
     const std::vector<ExactCase> cases = enclosureCases();
     const auto growing = std::ranges::find(cases, "EnclosureGrowing", &ExactCase::name);
     ASSERT_NE(growing, cases.end());
-    Scene scene = byLight(growing->scene);
+    LoadedScene scene = byLight(growing->scene);
     scene.reflectance = {matrix(35.0f, 0.0f, 35.0f, 0.0f), {}};
-    scene.render.bounces = 4;
-    scene.render.width = scene.render.height = 4;
-    scene.render.spp = 1u << 13;
+    scene.settings.bounces = 4;
+    scene.settings.width = scene.settings.height = 4;
+    scene.settings.spp = 1u << 13;
     const RenderOutput whole = render(device(), scene);
     EXPECT_FALSE(whole.statistics.filmOverflowed);
     EXPECT_GT(whole.statistics.previousBounceRadiance, 0.0);

@@ -18,56 +18,55 @@ namespace {
 
 class RendererTest : public testing::Test {
   protected:
-    static Scene small(Scene scene) {
-        scene.render.width = 21;
-        scene.render.height = 15;
-        scene.render.spp = 3;
-        scene.render.bounces = 4;
+    static LoadedScene small(LoadedScene scene) {
+        scene.settings.width = 21;
+        scene.settings.height = 15;
+        scene.settings.spp = 3;
+        scene.settings.bounces = 4;
         return scene;
     }
 
-    static void expectSame(Renderer& renderer, const TuningChoice& tuning, const std::string& what) {
+    static void expectSame(Renderer& renderer, const RenderSettings& settings, const TuningChoice& tuning,
+                           const std::string& what) {
         RenderControl control;
         control.tuning = tuning;
-        const RenderOutput expected = render(device(), renderer.scene(), control);
-        const RenderOutput output = renderer.render();
+        const RenderOutput expected = render(device(), renderer.scene(), settings, control);
+        const RenderOutput output = renderer.render(settings);
         EXPECT_TRUE(sameBits(output.film, expected.film)) << what << ", " << nameOf(tuning);
         EXPECT_EQ(output.statistics.directLightInClosedForm, expected.statistics.directLightInClosedForm);
         EXPECT_EQ(output.statistics.effectiveBounces, expected.statistics.effectiveBounces);
         EXPECT_GT(output.statistics.meanRadiance, 0.0) << what;
     }
 
-    static void goThroughChanges(Scene scene, const TuningChoice& tuning) {
+    static void goThroughChanges(LoadedScene scene, const TuningChoice& tuning) {
+        RenderSettings settings = scene.settings;
         Renderer renderer(device(), std::move(scene), tuning);
-        expectSame(renderer, tuning, "first");
+        expectSame(renderer, settings, tuning, "first");
 
         Camera camera = renderer.scene().camera;
         camera.position += glm::vec3(30, -20, 10);
         renderer.setCamera(camera);
-        expectSame(renderer, tuning, "another camera");
+        expectSame(renderer, settings, tuning, "another camera");
         camera.type = CameraType::kOrthographic;
         camera.height = 500.0f;
         renderer.setCamera(camera);
-        expectSame(renderer, tuning, "another kind of camera");
+        expectSame(renderer, settings, tuning, "another kind of camera");
 
         for (const char* preset : {"shadowless", "one-bounce", "local", "global"}) {
             renderer.setReflectance(*presetReflectance(preset));
-            expectSame(renderer, tuning, preset);
+            expectSame(renderer, settings, tuning, preset);
         }
 
-        RenderSettings settings = renderer.scene().render;
         settings.integrator = Integrator::kLight;
         settings.width = 17;
         settings.seed = 5;
-        renderer.setSettings(settings);
-        expectSame(renderer, tuning, "light paths");
+        expectSame(renderer, settings, tuning, "light paths");
         renderer.setReflectance(*presetReflectance("shadowless"));
-        expectSame(renderer, tuning, "light paths through everything");
+        expectSame(renderer, settings, tuning, "light paths through everything");
         settings.integrator = Integrator::kPath;
         settings.bounces = 2;
-        renderer.setSettings(settings);
         renderer.setDisplay({1, 0});
-        expectSame(renderer, tuning, "fewer bounces, the other component");
+        expectSame(renderer, settings, tuning, "fewer bounces, the other component");
 
         std::vector<Material> materials = renderer.scene().materials;
         for (Material& material : materials) {
@@ -75,14 +74,14 @@ class RendererTest : public testing::Test {
             material.baseColor *= 0.5f;
         }
         renderer.setMaterials(materials);
-        expectSame(renderer, tuning, "brighter emitters");
+        expectSame(renderer, settings, tuning, "brighter emitters");
         materials.front().emission = {glm::vec3(3.0f), glm::vec3(1.0f), Sides::kBoth};
         renderer.setMaterials(materials);
-        expectSame(renderer, tuning, "another emitter");
+        expectSame(renderer, settings, tuning, "another emitter");
         for (Material& material : materials)
             material.reflectance = *presetReflectance("local");
         renderer.setMaterials(materials);
-        expectSame(renderer, tuning, "reflectances of materials");
+        expectSame(renderer, settings, tuning, "reflectances of materials");
     }
 };
 
@@ -93,7 +92,7 @@ TEST_F(RendererTest, GivesTheSameBitsAfterAnyChange) {
 
 /// Emitters come first where surfaces coincide, so that their order depends on what emits.
 TEST_F(RendererTest, GivesTheSameBitsWhereSurfacesCoincide) {
-    Scene scene = small(cornellBox());
+    LoadedScene scene = small(cornellBox());
     Geometry& geometry = scene.geometry;
     const std::size_t triangles = geometry.triangles.size();
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -104,15 +103,16 @@ TEST_F(RendererTest, GivesTheSameBitsWhereSurfacesCoincide) {
 }
 
 TEST_F(RendererTest, BuildsTheTreeOnce) {
-    Renderer renderer(device(), small(cornellBox()));
-    EXPECT_GT(renderer.render().statistics.buildSeconds, 0.0);
+    const LoadedScene scene = small(cornellBox());
+    Renderer renderer(device(), scene);
+    EXPECT_GT(renderer.render(scene.settings).statistics.buildSeconds, 0.0);
     renderer.setReflectance(*presetReflectance("one-bounce"));
-    EXPECT_EQ(renderer.render().statistics.buildSeconds, 0.0);
+    EXPECT_EQ(renderer.render(scene.settings).statistics.buildSeconds, 0.0);
     std::vector<Material> materials = renderer.scene().materials;
     for (Material& material : materials)
         material.emission.invisible *= 0.5f;
     renderer.setMaterials(materials);
-    EXPECT_EQ(renderer.render().statistics.buildSeconds, 0.0);
+    EXPECT_EQ(renderer.render(scene.settings).statistics.buildSeconds, 0.0);
 }
 
 }  // namespace

@@ -23,25 +23,25 @@ void writeAll(const std::filesystem::path& stem, const RadianceImage& image) {
 
 }  // namespace
 
-Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed,
+Renders renderSeeds(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed,
                     const RenderControl& control) {
     Renders renders;
-    scene.render.spp = spp;
+    scene.settings.spp = spp;
     for (std::uint32_t i = 0; i < seeds; ++i) {
-        scene.render.seed = firstSeed + i;
+        scene.settings.seed = firstSeed + i;
         const RenderOutput output = render(device(), scene, control);
         EXPECT_EQ(output.statistics.nonFiniteSamples, 0u);
         EXPECT_FALSE(output.statistics.filmOverflowed);
-        EXPECT_EQ(scene.render.integrator == Integrator::kLight ? output.film.lightPaths()
-                                                                : output.film.totalSamples(),
-                  std::uint64_t{scene.render.width} * scene.render.height * spp);
+        EXPECT_EQ(scene.settings.integrator == Integrator::kLight ? output.film.lightPaths()
+                                                                  : output.film.totalSamples(),
+                  std::uint64_t{scene.settings.width} * scene.settings.height * spp);
         renders.images.push_back(output.film.resolve());
         renders.directLightInClosedForm = output.statistics.directLightInClosedForm;
     }
     return renders;
 }
 
-std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t spp, std::uint32_t seeds,
+std::optional<Renders> renderOtherEstimator(const LoadedScene& scene, std::uint32_t spp, std::uint32_t seeds,
                                             const Renders& renders) {
     RenderControl other;
     other.directLight = renders.directLightInClosedForm ? DirectLight::kSampled : DirectLight::kClosedForm;
@@ -54,8 +54,8 @@ std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t sp
     }
 }
 
-Renders renderByLight(Scene scene, std::uint32_t spp, std::uint32_t seeds) {
-    scene.render.integrator = Integrator::kLight;
+Renders renderByLight(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds) {
+    scene.settings.integrator = Integrator::kLight;
     return renderSeeds(std::move(scene), spp, seeds);
 }
 

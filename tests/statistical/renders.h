@@ -20,15 +20,15 @@ struct Renders {
 
 /// Renders on the tests' device with seeds firstSeed, firstSeed + 1, ...; fails the running test if a sample
 /// was not finite or a sum overflowed.
-Renders renderSeeds(Scene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed = 1,
+Renders renderSeeds(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds, std::uint32_t firstSeed = 1,
                     const RenderControl& control = {});
 
 /// The same with the other method for direct light, sampled or closed form; empty if there is no closed form.
-std::optional<Renders> renderOtherEstimator(const Scene& scene, std::uint32_t spp, std::uint32_t seeds,
+std::optional<Renders> renderOtherEstimator(const LoadedScene& scene, std::uint32_t spp, std::uint32_t seeds,
                                             const Renders& renders);
 
 /// The same with the light tracer.
-Renders renderByLight(Scene scene, std::uint32_t spp, std::uint32_t seeds);
+Renders renderByLight(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds);
 
 /// Every second of the cases, beginning with the `first`. Where cases take long, those with an even number
 /// run every time, the others nightly.

@@ -17,21 +17,21 @@ namespace {
 
 class Resume : public testing::TestWithParam<Integrator> {
   protected:
-    static Scene scene(std::uint32_t spp = 21) {
-        Scene result = mixedCornellBox();
-        result.render.width = 19;
-        result.render.height = 13;
-        result.render.spp = spp;
-        result.render.bounces = 5;
-        result.render.integrator = GetParam();
+    static LoadedScene scene(std::uint32_t spp = 21) {
+        LoadedScene result = mixedCornellBox();
+        result.settings.width = 19;
+        result.settings.height = 13;
+        result.settings.spp = spp;
+        result.settings.bounces = 5;
+        result.settings.integrator = GetParam();
         return result;
     }
     /// So many surfaces on a ray that some drivers cut dispatches short.
-    static Scene manyPanes() {
-        Scene result = stackedPanesCase(100).scene;
-        result.render.integrator = GetParam();
-        result.render.width = result.render.height = 24;
-        result.render.spp = 9;
+    static LoadedScene manyPanes() {
+        LoadedScene result = stackedPanesCase(100).scene;
+        result.settings.integrator = GetParam();
+        result.settings.width = result.settings.height = 24;
+        result.settings.spp = 9;
         return result;
     }
     /// Small dispatches, so that there are many states.
@@ -99,7 +99,7 @@ TEST_P(Resume, GoesOnInTheUnitOfItsFilm) {
 
 TEST_P(Resume, StoppedAnywhereLosesNothing) {
     // The render is stopped while work that the driver ended early is traced again.
-    const Scene panes = manyPanes();
+    const LoadedScene panes = manyPanes();
     const Film whole = render(device(), panes, {}).film;
     for (int after = 1; after < 6; ++after) {
         int calls = 0;
@@ -115,7 +115,7 @@ TEST_P(Resume, StoppedAnywhereLosesNothing) {
 }
 
 TEST_P(Resume, KeepsNoGapsWhereTheDriverCutsShort) {
-    const Scene panes = manyPanes();
+    const LoadedScene panes = manyPanes();
     const Film whole = render(device(), panes, {}).film;
     std::vector<RenderState> states;
     RenderControl keeping;

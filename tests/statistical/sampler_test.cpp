@@ -20,12 +20,12 @@ namespace {
 constexpr std::uint32_t kSeeds = 16;
 
 /// Direct and twice reflected light in an empty room: a very smooth image.
-Scene smoothBox(Sampler sampler) {
-    Scene scene = emptyCornellBox();
+LoadedScene smoothBox(Sampler sampler) {
+    LoadedScene scene = emptyCornellBox();
     scene.reflectance = preset("global");
-    scene.render.width = scene.render.height = 24;
-    scene.render.bounces = 3;
-    scene.render.sampler = sampler;
+    scene.settings.width = scene.settings.height = 24;
+    scene.settings.bounces = 3;
+    scene.settings.sampler = sampler;
     return scene;
 }
 
@@ -83,7 +83,7 @@ TEST_P(BothSamplers, MeanIsThatOfTheReference) {
     settings.width = settings.height = 24;
     settings.bounces = 3;
     settings.samples = 2048;
-    const Scene scene = smoothBox(GetParam());
+    const LoadedScene scene = smoothBox(GetParam());
     const reference::Estimates expected = reference::trace(scene, settings);
     expectAgreement(GetParam() == Sampler::kSobol ? "SamplerSobol" : "SamplerIndependent",
                     renderSeeds(scene, 64, kSeeds), expected);

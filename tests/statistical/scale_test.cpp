@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::uint32_t kSpp = 64;
 
-Scene box() {
-    Scene scene = cornellBox();
+LoadedScene box() {
+    LoadedScene scene = cornellBox();
     scene.reflectance = preset("global");
-    scene.render.width = scene.render.height = 48;
-    scene.render.bounces = 6;
+    scene.settings.width = scene.settings.height = 48;
+    scene.settings.bounces = 6;
     return scene;
 }
 
@@ -46,7 +46,7 @@ Difference difference(const RadianceImage& a, const RadianceImage& b) {
     return {d.absolute / sum, d.signedMean / sum};
 }
 
-RadianceImage oneRender(const Scene& scene) {
+RadianceImage oneRender(const LoadedScene& scene) {
     return renderSeeds(scene, kSpp, 1).images.front();
 }
 

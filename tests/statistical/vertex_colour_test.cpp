@@ -20,7 +20,7 @@ glm::dvec3 colourAt(const glm::dvec3& p) {
 }
 
 /// A floor from -1 to 1 of `white` or of colours, under a large lamp out of view.
-Scene floorScene(bool coloured) {
+LoadedScene floorScene(bool coloured) {
     SceneBuilder builder;
     Material white;
     white.baseColor = glm::vec3(1.0f);
@@ -31,7 +31,7 @@ Scene floorScene(bool coloured) {
     geometry.positions = {{-1, 0, 1}, {0.2f, 0, 1}, {0.2f, 0, -1}, {-1, 0, -1}, {1, 0, -1}, {1, 0, 1}};
     geometry.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 2, 1}, {1, 5, 4}};
     geometry.materials.assign(geometry.triangles.size(), material);
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     if (coloured) {
         for (const glm::vec3& position : scene.geometry.positions)
             scene.geometry.colours.emplace_back(colourAt(glm::dvec3(position)));
@@ -46,28 +46,28 @@ Scene floorScene(bool coloured) {
     scene.camera.target = {0, 0, 0};
     scene.camera.up = {0, 0, -1};
     scene.camera.vfov = 45.0f;
-    scene.render.width = scene.render.height = 24;
-    scene.render.spp = 64;
-    scene.render.bounces = 1;
+    scene.settings.width = scene.settings.height = 24;
+    scene.settings.spp = 64;
+    scene.settings.bounces = 1;
     return scene;
 }
 
 void expectColours(Integrator integrator, const TuningChoice& tuning) {
-    Scene white = floorScene(false), coloured = floorScene(true);
+    LoadedScene white = floorScene(false), coloured = floorScene(true);
     RenderControl control;
     control.tuning = tuning;
-    white.render.integrator = coloured.render.integrator = integrator;
+    white.settings.integrator = coloured.settings.integrator = integrator;
     // A small part of the particles reaches a pixel, and none may be without.
-    if (integrator == Integrator::kLight) white.render.spp = coloured.render.spp = 2048;
+    if (integrator == Integrator::kLight) white.settings.spp = coloured.settings.spp = 2048;
     const std::vector<glm::vec3> expected = render(device(), white, control).film.resolve().visible;
     const std::vector<glm::vec3> actual = render(device(), coloured, control).film.resolve().visible;
-    const ImagePlane plane = imagePlane(white.camera, white.render.width, white.render.height);
-    for (std::uint32_t y = 0; y < white.render.height; ++y) {
-        for (std::uint32_t x = 0; x < white.render.width; ++x) {
+    const ImagePlane plane = imagePlane(white.camera, white.settings.width, white.settings.height);
+    for (std::uint32_t y = 0; y < white.settings.height; ++y) {
+        for (std::uint32_t x = 0; x < white.settings.width; ++x) {
             const glm::vec2 point(
-                2.0f * (static_cast<float>(x) + 0.5f) / static_cast<float>(white.render.width) - 1.0f,
-                1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / static_cast<float>(white.render.height));
-            const std::size_t pixel = std::size_t{y} * white.render.width + x;
+                2.0f * (static_cast<float>(x) + 0.5f) / static_cast<float>(white.settings.width) - 1.0f,
+                1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / static_cast<float>(white.settings.height));
+            const std::size_t pixel = std::size_t{y} * white.settings.width + x;
             const CameraRay ray = cameraRay(white.camera, plane, point);
             const glm::dvec3 p =
                 glm::dvec3(ray.origin) -

@@ -65,28 +65,28 @@ SceneBuilder room() {
     addRoom(builder);
     builder.scene.camera = {{278, 273, -800}, {278, 273, 0}, {0, 1, 0}, 39.3f};
     builder.scene.reflectance = preset("global");
-    builder.scene.render.width = builder.scene.render.height = 32;
+    builder.scene.settings.width = builder.scene.settings.height = 32;
     return builder;
 }
 
 }  // namespace
 
-Scene cornellBox() {
+LoadedScene cornellBox() {
     SceneBuilder builder = room();
     addBlocks(builder);
     return builder.scene;
 }
 
-Scene emptyCornellBox() {
+LoadedScene emptyCornellBox() {
     SceneBuilder builder = room();
     builder.scene.materials[kLight].emission.visible = builder.scene.materials[kLight].emission.invisible;
     return builder.scene;
 }
 
-Scene mixedCornellBox() {
+LoadedScene mixedCornellBox() {
     SceneBuilder builder = room();
     addBlocks(builder);
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = blendReflectance(0.25f, 0.75f);
     scene.materials[kTall].reflectance = preset("shadowless");
     scene.materials[kShort].reflectance = preset("global");
@@ -102,7 +102,7 @@ Scene mixedCornellBox() {
     return builder.scene;
 }
 
-Scene lampsCornellBox() {
+LoadedScene lampsCornellBox() {
     SceneBuilder builder = room();
     addBlocks(builder);
     addLamp(builder, lampMaterial());

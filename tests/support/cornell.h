@@ -6,20 +6,20 @@ namespace duolux::test {
 
 /// The Cornell box (Goral et al., SIGGRAPH 1984; dimensions in millimetres as measured at Cornell in 1998),
 /// open towards the camera. Materials in this order: white, red, green, light, short, tall.
-Scene cornellBox();
+LoadedScene cornellBox();
 
 enum CornellMaterial : std::uint32_t { kWhite, kRed, kGreen, kLight, kShort, kTall };
 
 /// The box with another reflectance on every kind of surface: tall block `shadowless`, short block `global`,
 /// red wall with full matrices that differ per channel, green wall a front-only blend, and a small two-sided
 /// emitter of visible and invisible light hung inside.
-Scene mixedCornellBox();
+LoadedScene mixedCornellBox();
 
 /// The box with three kinds of emitter: its luminaire, a two-sided pane inside, and a short block whose top
 /// emits only visible light. All surfaces have the scene's reflectance.
-Scene lampsCornellBox();
+LoadedScene lampsCornellBox();
 
 /// The box without its blocks, its luminaire seen by the camera (the paper's eq. 11): a smooth image.
-Scene emptyCornellBox();
+LoadedScene emptyCornellBox();
 
 }  // namespace duolux::test

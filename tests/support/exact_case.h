@@ -11,8 +11,8 @@ namespace duolux::test {
 
 /// A scene whose image is known in closed form: both the reference and the kernels must render it.
 struct ExactCase {
-    std::string name;  ///< letters and digits
-    Scene scene;       ///< size and bounces set
+    std::string name;   ///< letters and digits
+    LoadedScene scene;  ///< size and bounces set
     reference::Estimates expected;
     /// The light search with a finite variance; only the reference needs it.
     reference::LightSearch search = reference::LightSearch::kDirection;

@@ -27,7 +27,6 @@ Material filter(const std::string& name, const LightMatrix& transparent) {
 }
 
 std::uint32_t SceneBuilder::add(const Material& material) {
-    scene.hash = "0000000000000000";
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
@@ -109,7 +108,7 @@ void SceneBuilder::box(glm::vec3 lower, glm::vec3 upper, Facing facing, std::uin
     }
 }
 
-Scene transformed(Scene scene, float scale, glm::vec3 offset) {
+LoadedScene transformed(LoadedScene scene, float scale, glm::vec3 offset) {
     for (glm::vec3& p : scene.geometry.positions)
         p = scale * p + offset;
     scene.camera.position = scale * scene.camera.position + offset;

@@ -30,10 +30,10 @@ class SceneBuilder {
     void sphere(glm::vec3 centre, float radius, int level, Facing facing, std::uint32_t material);
     void box(glm::vec3 lower, glm::vec3 upper, Facing facing, std::uint32_t material);
 
-    Scene scene;  ///< geometry and materials are filled by the calls above; the rest is the caller's
+    LoadedScene scene;  ///< geometry and materials are filled by the calls above; the rest is the caller's
 };
 
 /// The same scene `scale` times as large, about the origin, then moved.
-Scene transformed(Scene scene, float scale, glm::vec3 offset = glm::vec3(0.0f));
+LoadedScene transformed(LoadedScene scene, float scale, glm::vec3 offset = glm::vec3(0.0f));
 
 }  // namespace duolux::test

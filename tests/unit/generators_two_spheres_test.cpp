@@ -65,7 +65,7 @@ TEST_F(TwoSpheresTest, MeetsTheNumberOfTrianglesWithinOnePercent) {
 
 TEST_F(TwoSpheresTest, SpheresAreClosedOutwardAndMostOfTheTriangles) {
     const std::size_t written = writeTwoSpheres(folder_, 20'000);
-    const Scene scene = load("two_spheres.json");
+    const LoadedScene scene = load("two_spheres.json");
     EXPECT_TRUE(scene.warnings.empty());
     std::size_t inSpheres = 0;
     for (const char* name : {"left_sphere", "right_sphere"}) {
@@ -87,7 +87,7 @@ TEST_F(TwoSpheresTest, SpheresAreClosedOutwardAndMostOfTheTriangles) {
 
 TEST_F(TwoSpheresTest, WallsFaceTheRoomAndTheLuminaireFacesDown) {
     writeTwoSpheres(folder_, 1000);
-    const Scene scene = load("two_spheres.json");
+    const LoadedScene scene = load("two_spheres.json");
     const std::set<std::string> spheres{"left_sphere", "right_sphere"};
     const glm::vec3 middle(50.0f);
     for (std::size_t i = 0; i < scene.geometry.triangles.size(); ++i) {

@@ -23,7 +23,7 @@ constexpr float kRadiance = 7.0f;
 struct Luminaire {
     std::array<glm::vec3, 4> corners{
         {{-1.0f, 2.0f, -0.5f}, {1.0f, 2.0f, -1.0f}, {1.5f, 2.0f, 0.5f}, {-0.5f, 2.0f, 1.0f}}};
-    Scene scene;
+    LoadedScene scene;
 
     explicit Luminaire(Sides sides = Sides::kFront) {
         SceneBuilder builder;
@@ -105,7 +105,7 @@ TEST(PointLights, LightsOfBothSidesShineBothWays) {
 }
 
 TEST(PointLights, WhatIsNoParallelogramIsRefused) {
-    const auto error = [](const Scene& scene) {
+    const auto error = [](const LoadedScene& scene) {
         try {
             pointLights(scene, Tiling::parse("5"));
         } catch (const InputError& e) {
@@ -113,11 +113,11 @@ TEST(PointLights, WhatIsNoParallelogramIsRefused) {
         }
         return std::string();
     };
-    Scene single = Luminaire().scene;
+    LoadedScene single = Luminaire().scene;
     single.geometry.triangles.pop_back();
     single.geometry.materials.pop_back();
     EXPECT_THAT(error(single), HasSubstr("scene.json: material lamp: a luminaire is not a parallelogram"));
-    Scene dark = Luminaire().scene;
+    LoadedScene dark = Luminaire().scene;
     dark.materials[0].emission.invisible = glm::vec3(0.0f);
     EXPECT_THAT(error(dark), HasSubstr("nothing emits invisible light"));
 }

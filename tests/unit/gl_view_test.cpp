@@ -14,24 +14,25 @@
 namespace duolux::test {
 namespace {
 
-Scene scene() {
+LoadedScene scene() {
     SceneBuilder builder;
     builder.box({-1, -2, -3}, {4, 2, 1}, Facing::kOutward, builder.add({}));
-    Scene result = builder.scene;
+    LoadedScene result = builder.scene;
     result.camera = {{5, 6, 8}, {0.5f, -0.5f, 0}, {0.2f, 1, 0}, 35.0f};
-    result.render.width = 60;
-    result.render.height = 40;
+    result.settings.width = 60;
+    result.settings.height = 40;
     return result;
 }
 
 /// Where OpenGL draws a point, in pixels from the top left corner of the window.
-glm::vec2 drawnAt(const Scene& s, glm::vec3 point, glm::vec2 jitter, const std::array<float, 4>& window) {
+glm::vec2 drawnAt(const LoadedScene& s, glm::vec3 point, glm::vec2 jitter,
+                  const std::array<float, 4>& window) {
     const glm::vec4 clip =
-        projectionMatrix(s, jitter, window) * viewMatrix(s.camera) * glm::vec4(point, 1.0f);
+        projectionMatrix(s, s.settings, jitter, window) * viewMatrix(s.camera) * glm::vec4(point, 1.0f);
     EXPECT_GT(clip.w, 0.0f);
     EXPECT_LE(std::abs(clip.z), clip.w) << "between the clipping planes";
-    return {(clip.x / clip.w + 1.0f) / 2.0f * static_cast<float>(s.render.width),
-            (1.0f - clip.y / clip.w) / 2.0f * static_cast<float>(s.render.height)};
+    return {(clip.x / clip.w + 1.0f) / 2.0f * static_cast<float>(s.settings.width),
+            (1.0f - clip.y / clip.w) / 2.0f * static_cast<float>(s.settings.height)};
 }
 
 class GlView : public testing::TestWithParam<CameraType> {};
@@ -40,10 +41,10 @@ INSTANTIATE_TEST_SUITE_P(Cameras, GlView,
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 TEST_P(GlView, TheCentreOfAPixelShowsWhatTheRenderersCameraSeesAtTheJitter) {
-    Scene s = scene();
+    LoadedScene s = scene();
     s.camera.type = GetParam();
     s.camera.height = 7.0f;
-    const reference::Pinhole pinhole(s.camera, s.render.width, s.render.height);
+    const reference::Pinhole pinhole(s.camera, s.settings.width, s.settings.height);
     for (const glm::vec2 jitter : {glm::vec2(0.5f, 0.5f), {0.1f, 0.8f}, {0.99f, 0.0f}}) {
         for (const glm::vec2 pixel : {glm::vec2(0, 0), {30, 20}, {59, 39}, {12, 33}}) {
             const reference::Ray ray =
@@ -57,10 +58,10 @@ TEST_P(GlView, TheCentreOfAPixelShowsWhatTheRenderersCameraSeesAtTheJitter) {
 }
 
 TEST_P(GlView, AWindowMagnifiesItsPart) {
-    Scene s = scene();
+    LoadedScene s = scene();
     s.camera.type = GetParam();
     s.camera.height = 7.0f;
-    const reference::Pinhole pinhole(s.camera, s.render.width, s.render.height);
+    const reference::Pinhole pinhole(s.camera, s.settings.width, s.settings.height);
     const reference::Ray ray = pinhole.ray(30.0, 10.0);
     // The window's left top corner is at (15, 5) of 60 x 40 pixels; it is half as wide and high as the image.
     const glm::vec2 at =

@@ -30,8 +30,8 @@ TEST(AliasTable, RealisesItsWeights) {
     }
 }
 
-Scene twoEmitters() {
-    Scene scene;
+LoadedScene twoEmitters() {
+    LoadedScene scene;
     scene.geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, 2, 0}};
     scene.geometry.triangles = {{0, 1, 2}, {0, 3, 4}, {0, 1, 4}};
     scene.geometry.materials = {0, 1, 2};
@@ -41,7 +41,7 @@ Scene twoEmitters() {
     return scene;
 }
 
-EmitterTable tableOf(const Scene& scene, bool bothComponents) {
+EmitterTable tableOf(const LoadedScene& scene, bool bothComponents) {
     return buildEmitterTable(scene, emittingTriangles(scene), bothComponents);
 }
 
@@ -64,7 +64,7 @@ TEST(EmitterTable, VisibleEmissionCountsWhereItCanReachSurfaces) {
 
 // What emits only visible light is recorded, because the camera sees it, but not sampled.
 TEST(EmitterTable, VisibleEmissionAloneGivesNothingToChooseFrom) {
-    Scene scene = twoEmitters();
+    LoadedScene scene = twoEmitters();
     for (Material& material : scene.materials)
         material.emission.invisible = glm::vec3(0.0f);
     const EmitterTable invisible = tableOf(scene, false);
@@ -77,7 +77,7 @@ TEST(EmitterTable, VisibleEmissionAloneGivesNothingToChooseFrom) {
 
 // A point of intensity I has the power 4 pi I, a triangle of one side pi L A.
 TEST(EmitterTable, PointsFollowAndAreChosenByPower) {
-    Scene scene = twoEmitters();
+    LoadedScene scene = twoEmitters();
     scene.pointEmitters = {{glm::vec3(1, 2, 3), glm::vec3(0.5f), glm::vec3(0.25f)}};
     const EmitterTable table = tableOf(scene, false);
     ASSERT_EQ(table.records.size(), 3u);

@@ -33,7 +33,7 @@ class CoincidentGroups : public testing::Test {
     glm::dvec3 offset_{0.7, -0.3, 0.9};
     glm::dmat3 turn_ = glm::dmat3(0.6, 0.8, 0.0, -0.64, 0.48, 0.6, 0.48, -0.36, 0.8);
     std::uint32_t material_ = 0;
-    Scene scene_;
+    LoadedScene scene_;
 };
 
 TEST_F(CoincidentGroups, NeighboursAreNone) {

@@ -5,7 +5,7 @@
 namespace duolux {
 namespace {
 
-Scene sceneWith(const Reflectance& reflectance, std::uint32_t bounces = 16) {
+Scene sceneWith(const Reflectance& reflectance) {
     Scene scene;
     scene.geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     scene.geometry.triangles = {{0, 1, 2}, {2, 1, 0}};
@@ -13,7 +13,6 @@ Scene sceneWith(const Reflectance& reflectance, std::uint32_t bounces = 16) {
     scene.materials.resize(2);
     scene.materials[0].emission.invisible = glm::vec3(4.0f);
     scene.reflectance = reflectance;
-    scene.render.bounces = bounces;
     return scene;
 }
 
@@ -26,14 +25,10 @@ TEST(Transport, Presets) {
     EXPECT_EQ(traitsOf("one-bounce").transmittance, shared::kTransmittanceZero);
     EXPECT_EQ(traitsOf("local").transmittance, shared::kTransmittanceIdentity);
     EXPECT_EQ(traitsOf("shadowless").transmittance, shared::kTransmittanceIdentity);
-    EXPECT_EQ(traitsOf("local").effectiveBounces, 1u);
-    EXPECT_EQ(traitsOf("one-bounce").effectiveBounces, 1u);
-    EXPECT_EQ(traitsOf("global").effectiveBounces, 16u);
-    EXPECT_EQ(traitsOf("shadowless").effectiveBounces, 16u);
-    EXPECT_FALSE(traitsOf("local").limitedByBounces);
-    EXPECT_FALSE(traitsOf("one-bounce").limitedByBounces);
-    EXPECT_TRUE(traitsOf("global").limitedByBounces);
-    EXPECT_TRUE(traitsOf("shadowless").limitedByBounces);
+    EXPECT_EQ(traitsOf("local").mostScatterings, 1u);
+    EXPECT_EQ(traitsOf("one-bounce").mostScatterings, 1u);
+    EXPECT_EQ(traitsOf("global").mostScatterings, TransportTraits::kUnlimited);
+    EXPECT_EQ(traitsOf("shadowless").mostScatterings, TransportTraits::kUnlimited);
     EXPECT_FALSE(traitsOf("local").invisibleScatters);
     EXPECT_TRUE(traitsOf("local").invisibleCrosses);
     for (const Preset& preset : presets()) {
@@ -100,19 +95,17 @@ TEST(Transport, SecondColumn) {
 
 /// Importance that alternates between the components: with 01 and 10 the series is infinite, with 10 alone it
 /// ends after one event.
-TEST(Transport, EffectiveBouncesFollowTheComponents) {
+TEST(Transport, ScatteringsFollowTheComponents) {
     Reflectance reflectance;
     reflectance.opaque.m10 = glm::vec3(1.0f);
-    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).effectiveBounces, 1u);
-    EXPECT_FALSE(analyseTransport(sceneWith(reflectance, 1)).limitedByBounces);
-    EXPECT_TRUE(analyseTransport(sceneWith(reflectance, 0)).limitedByBounces);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, 1u);
     reflectance.opaque.m01 = glm::vec3(1.0f);
-    EXPECT_EQ(analyseTransport(sceneWith(reflectance, 5)).effectiveBounces, 5u);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, TransportTraits::kUnlimited);
     // A crossing that turns invisible importance into visible closes the cycle, too.
     reflectance.opaque.m01 = glm::vec3(0.0f);
     reflectance.transparent.m01 = glm::vec3(0.5f);
-    EXPECT_EQ(analyseTransport(sceneWith(reflectance, 5)).effectiveBounces, 5u);
-    EXPECT_EQ(analyseTransport(sceneWith({})).effectiveBounces, 0u);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, TransportTraits::kUnlimited);
+    EXPECT_EQ(analyseTransport(sceneWith({})).mostScatterings, 0u);
 }
 
 TEST(Transport, BrightestEmissionIsOfWhatIsThere) {

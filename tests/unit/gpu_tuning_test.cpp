@@ -120,7 +120,7 @@ TEST(DeviceMemory, OfAGpuMustHoldTheScene) {
     device.name = "Card";
     device.driver = "driver 1";
     device.memoryBytes = std::uint64_t{8} << 30;
-    Scene scene;
+    LoadedScene scene;
     scene.source = "big.obj";
     scene.geometry.triangles.resize(7);
     EXPECT_NO_THROW(requireDeviceMemory(device, device.memoryBytes, scene));

@@ -32,7 +32,7 @@ int crossings(const Geometry& geometry, const glm::dvec3& a, const glm::dvec3& b
 }
 
 TEST(Assets, CornellBoxIsAsPublished) {
-    const Scene scene = loadScene(kAssets / "cornell" / "cornell.json");
+    const LoadedScene scene = loadScene(kAssets / "cornell" / "cornell.json");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(scene.camera.position, glm::vec3(278, 273, -800));
     EXPECT_NEAR(scene.camera.vfov, 2 * std::atan(0.0125 / 0.035) * 180 / 3.14159265358979, 1e-4);
@@ -54,7 +54,7 @@ TEST(Assets, CornellBoxIsAsPublished) {
 }
 
 TEST(Assets, CornellFrontsFaceTheRoom) {
-    const Scene scene = loadScene(kAssets / "cornell" / "cornell.json");
+    const LoadedScene scene = loadScene(kAssets / "cornell" / "cornell.json");
     const Geometry& geometry = scene.geometry;
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
         const std::string& name = scene.materials[geometry.materials[i]].name;
@@ -79,7 +79,7 @@ TEST(Assets, CornellFrontsFaceTheRoom) {
 }
 
 TEST(Assets, CornellCeilingHasNoGapNorOverlap) {
-    const Scene scene = loadScene(kAssets / "cornell" / "cornell.json");
+    const LoadedScene scene = loadScene(kAssets / "cornell" / "cornell.json");
     for (int i = 0; i < 400; ++i) {
         const double x = 3.7 + 27.3 * (i % 20), z = 2.9 + 27.7 * static_cast<double>(i / 20);
         EXPECT_EQ(crossings(scene.geometry, {x, 540, z}, {x, 560, z}), 1) << x << ' ' << z;
@@ -87,7 +87,7 @@ TEST(Assets, CornellCeilingHasNoGapNorOverlap) {
 }
 
 TEST(Assets, SpotStandsOnTheFloorUnderTheLuminaire) {
-    const Scene scene = loadScene(kAssets / "spot" / "spot.json");
+    const LoadedScene scene = loadScene(kAssets / "spot" / "spot.json");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(scene.geometry.triangles.size(), 5856u + 10u + 2u);
     Geometry spot = scene.geometry;

@@ -23,10 +23,10 @@ class JsonTest : public SceneFiles {
     static std::string with(const std::string& keys) {
         return R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}])" + (keys.empty() ? "" : ", " + keys) + "}";
     }
-    Scene sceneWith(const std::string& keys) const { return loadJson(with(keys)); }
+    LoadedScene sceneWith(const std::string& keys) const { return loadJson(with(keys)); }
     std::string errorWith(const std::string& keys) const { return errorOfJson(with(keys)); }
 
-    static const Material& material(const Scene& scene, const std::string& name) {
+    static const Material& material(const LoadedScene& scene, const std::string& name) {
         for (const Material& material : scene.materials) {
             if (material.name == name) return material;
         }
@@ -35,12 +35,12 @@ class JsonTest : public SceneFiles {
 };
 
 TEST_F(JsonTest, Defaults) {
-    const Scene scene = sceneWith("");
-    EXPECT_EQ(scene.render.width, 512u);
-    EXPECT_EQ(scene.render.height, 512u);
-    EXPECT_EQ(scene.render.spp, 64u);
-    EXPECT_EQ(scene.render.bounces, 16u);
-    EXPECT_EQ(scene.render.sampler, Sampler::kSobol);
+    const LoadedScene scene = sceneWith("");
+    EXPECT_EQ(scene.settings.width, 512u);
+    EXPECT_EQ(scene.settings.height, 512u);
+    EXPECT_EQ(scene.settings.spp, 64u);
+    EXPECT_EQ(scene.settings.bounces, 16u);
+    EXPECT_EQ(scene.settings.sampler, Sampler::kSobol);
     EXPECT_EQ(scene.display, glm::vec2(0, 1));
     EXPECT_EQ(scene.reflectance, presetReflectance("global"));
     EXPECT_EQ(scene.geometry.triangles.size(), 2u);
@@ -48,7 +48,7 @@ TEST_F(JsonTest, Defaults) {
 }
 
 TEST_F(JsonTest, EveryKey) {
-    const Scene scene = sceneWith(R"(
+    const LoadedScene scene = sceneWith(R"(
         "camera": {"position": [1, 2, 3], "target": [4, 5, -6], "up": [0, 0, 2], "vfov": 39.5},
         "film": {"width": 640, "height": 1},
         "render": {"spp": 16777216, "bounces": 0, "seed": 4294967295, "sampler": "independent"},
@@ -61,12 +61,12 @@ TEST_F(JsonTest, EveryKey) {
     EXPECT_EQ(scene.camera.target, glm::vec3(4, 5, -6));
     EXPECT_EQ(scene.camera.up, glm::vec3(0, 0, 2));
     EXPECT_EQ(scene.camera.vfov, 39.5f);
-    EXPECT_EQ(scene.render.width, 640u);
-    EXPECT_EQ(scene.render.height, 1u);
-    EXPECT_EQ(scene.render.spp, 16777216u);
-    EXPECT_EQ(scene.render.bounces, 0u);
-    EXPECT_EQ(scene.render.seed, 4294967295u);
-    EXPECT_EQ(scene.render.sampler, Sampler::kIndependent);
+    EXPECT_EQ(scene.settings.width, 640u);
+    EXPECT_EQ(scene.settings.height, 1u);
+    EXPECT_EQ(scene.settings.spp, 16777216u);
+    EXPECT_EQ(scene.settings.bounces, 0u);
+    EXPECT_EQ(scene.settings.seed, 4294967295u);
+    EXPECT_EQ(scene.settings.sampler, Sampler::kIndependent);
     EXPECT_EQ(scene.display, glm::vec2(1.0f, 0.5f));
     EXPECT_EQ(scene.reflectance, blendReflectance(0.25f, 0.75f));
     const Material& white = material(scene, "white");
@@ -86,7 +86,7 @@ TEST_F(JsonTest, EveryKey) {
 }
 
 TEST_F(JsonTest, ReflectanceMatrices) {
-    const Scene scene = sceneWith(R"("reflectance": {
+    const LoadedScene scene = sceneWith(R"("reflectance": {
         "opaque": [[1, 2], [[3, 4, 5], 6]], "transparent": [[0.1, 0], [[0, 0.5, 1], 7]]})");
     const Reflectance& r = scene.reflectance;
     EXPECT_EQ(r.opaque.m00, glm::vec3(1));
@@ -100,13 +100,14 @@ TEST_F(JsonTest, ReflectanceMatrices) {
 
 TEST_F(JsonTest, EveryPreset) {
     for (const Preset& preset : presets()) {
-        const Scene scene = sceneWith(fmt::format(R"("reflectance": {{"preset": "{}"}})", preset.name));
+        const LoadedScene scene = sceneWith(fmt::format(R"("reflectance": {{"preset": "{}"}})", preset.name));
         EXPECT_EQ(scene.reflectance, blendReflectance(preset.t, preset.o));
     }
 }
 
 TEST_F(JsonTest, RectangleLightEmitsAlongEdge1CrossEdge2) {
-    const Scene scene = sceneWith(R"("lights": [{"type": "rectangle", "origin": [0, 5, 0], "edge1": [2, 0, 0],
+    const LoadedScene scene =
+        sceneWith(R"("lights": [{"type": "rectangle", "origin": [0, 5, 0], "edge1": [2, 0, 0],
         "edge2": [0, 0, 3], "emission": {"invisible": [4, 5, 6], "visible": 0}, "reflectance": {"preset": "local"}}])");
     ASSERT_EQ(scene.geometry.triangles.size(), 4u);
     for (const std::size_t i : {2u, 3u}) {
@@ -124,14 +125,14 @@ TEST_F(JsonTest, RectangleLightEmitsAlongEdge1CrossEdge2) {
 }
 
 TEST_F(JsonTest, LightsAloneAreAScene) {
-    const Scene scene = loadJson(R"({"duolux": 1, "lights": [{"type": "rectangle", "origin": [0, 0, 0],
+    const LoadedScene scene = loadJson(R"({"duolux": 1, "lights": [{"type": "rectangle", "origin": [0, 0, 0],
         "edge1": [1, 0, 0], "edge2": [0, 1, 0], "emission": {"visible": 1}}]})");
     EXPECT_EQ(scene.geometry.triangles.size(), 2u);
     EXPECT_GT(scene.camera.position.z, 0.0f);
 }
 
 TEST_F(JsonTest, ObjectsShareEqualMaterials) {
-    const Scene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}, {"mesh": "mesh.obj",
+    const LoadedScene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}, {"mesh": "mesh.obj",
         "transform": [1,0,0,5, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})");
     EXPECT_EQ(scene.geometry.triangles.size(), 4u);
     EXPECT_EQ(scene.materials.size(), 2u);
@@ -272,7 +273,7 @@ TEST_F(JsonTest, MaterialsAreChecked) {
 }
 
 TEST_F(JsonTest, PointLights) {
-    const Scene scene = sceneWith(R"("lights": [{"type": "point", "position": [1, 2, 3],
+    const LoadedScene scene = sceneWith(R"("lights": [{"type": "point", "position": [1, 2, 3],
         "emission": {"invisible": [4, 5, 6], "visible": 7}}])");
     ASSERT_EQ(scene.pointEmitters.size(), 1u);
     EXPECT_EQ(scene.pointEmitters[0].position, glm::vec3(1, 2, 3));
@@ -325,7 +326,7 @@ TEST_F(JsonTest, MeshPathsMayHaveBackslashes) {
 }
 
 TEST_F(JsonTest, StatedLimitsAreAccepted) {
-    const Scene scene =
+    const LoadedScene scene =
         loadJson(R"({"duolux": 1, "display": [1e6, 1e6], "reflectance": {"opaque": [[1e6, 0], [0, 0]],
         "transparent": [[0, 0], [0, 0]]}, "lights": [{"type": "rectangle", "origin": [0, 0, 0], "edge1": [1e9, 0, 0],
         "edge2": [0, 1e9, 0], "emission": {"invisible": 1e12, "visible": [1e12, 0, 1e12]}}]})");

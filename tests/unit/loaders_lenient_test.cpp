@@ -68,7 +68,7 @@ TEST_F(LenientTest, TextureCoordinatesAreNotUsed) {
 
 TEST_F(LenientTest, CornersMayEndInASlash) {
     for (const char* face : {"f 1/ 2/ 3/", "f 1// 2// 3//", "vt 0 0\nf 1/1/ 2/1/ 3/1/"}) {
-        const Scene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(face));
+        const LoadedScene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(face));
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2));
         EXPECT_THAT(scene.warnings[0].text,
                     HasSubstr("a corner that ends in \"/\" (and 2 more): read without it"));
@@ -79,7 +79,7 @@ TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
     const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
     for (const char* face : {"1/1// 2/1// 3/1//", "1/1/1/1 2/1/1/1 3/1/1/1", "1.0 2.0 3.0", "1/// 2/// 3///",
                              "1, 2, 3,", "1 , 2 , 3 ,", "1,2,3,", "1.0/1.0/1.0 2.0/1.0/1.0 3.0/1.0/1.0"}) {
-        const Scene scene = loadObj(head + "f " + face + "\n");
+        const LoadedScene scene = loadObj(head + "f " + face + "\n");
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
         EXPECT_THAT(
             withoutLight(textsOf(scene.warnings)),
@@ -93,7 +93,7 @@ TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
           "2\xC2\xA0"
           "3",
           "1 \\ \n2 \\\t\r\n3", "1 2 3 \\", "1 2 3\\"}) {
-        const Scene scene = loadObj(head + "f " + face);
+        const LoadedScene scene = loadObj(head + "f " + face);
         EXPECT_EQ(scene.geometry.triangles[0], glm::uvec3(0, 1, 2)) << face;
         EXPECT_THAT(withoutLight(textsOf(scene.warnings)), IsEmpty()) << face;
     }
@@ -101,7 +101,7 @@ TEST_F(LenientTest, CornersAreReadAsFarAsTheyAreNumbers) {
 
 TEST_F(LenientTest, FacesWithoutTheirVerticesAreLeftOut) {
     const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n";
-    const Scene scene =
+    const LoadedScene scene =
         loadObj(head + "usemtl a\nf 1//1 2//1 9//1\nf 1 2 0\nusemtl b\nf 1//1 2//1 3//1\nf a b c\n");
     EXPECT_EQ(scene.geometry.triangles.size(), 1u + 2u);
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "b");
@@ -117,7 +117,7 @@ TEST_F(LenientTest, FacesWithoutTheirVerticesAreLeftOut) {
 
 TEST_F(LenientTest, NamesKeepTheirBackslashes) {
     for (const char* name : {"g back\\", "usemtl C:\\textures\\", "o a b\\"}) {
-        const Scene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(name) + "\nf 1 2 3\n");
+        const LoadedScene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(name) + "\nf 1 2 3\n");
         EXPECT_EQ(scene.geometry.triangles.size(), 1u + 2u) << name;
     }
     write("a.mtl", "newmtl a\nKd 1 0 0\n");
@@ -128,13 +128,13 @@ TEST_F(LenientTest, NamesKeepTheirBackslashes) {
 TEST_F(LenientTest, FacesOfFewerThanThreeCornersAreLeftOut) {
     EXPECT_THAT(warningsOf("vn 0 0 1\nf 1//1\nf\nf 1 2\nf 1 9\nf 1 2 3\n"),
                 ElementsAre("mesh.obj: line 6: a face of fewer than 3 corners (and 3 more): left out"));
-    const Scene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2\nusemtl b\nf 1 2 3\n");
+    const LoadedScene scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2\nusemtl b\nf 1 2 3\n");
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "b");
 }
 
 TEST_F(LenientTest, AnEmptyMaterialSlotIsDefaultGrey) {
     write("m.mtl", "newmtl red\nKd 1 0 0\n");
-    const Scene scene =
+    const LoadedScene scene =
         loadObj("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl \nf 1 2 3\n");
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].name, "red");
     EXPECT_EQ(scene.materials[scene.geometry.materials[1]].name, "default");
@@ -152,7 +152,7 @@ TEST_F(LenientTest, SmoothingByWords) {
 }
 
 TEST_F(LenientTest, VerticesThatNoFaceUsesMayBeAnything) {
-    const Scene scene =
+    const LoadedScene scene =
         loadObj("v 0 0 0\nv 1 0 0\nv nan 0 0\nv 0 1 0\nv 1e300 0 0\nv -1.#IND 0 0\nf 1 2 4\n");
     EXPECT_THAT(withoutLight(textsOf(scene.warnings)),
                 ElementsAre("mesh.obj: line 3: a vertex that is not three finite numbers, or too large (and "
@@ -196,7 +196,7 @@ TEST_F(LenientTest, VertexColoursAreNamedOnce) {
 }
 
 TEST_F(LenientTest, ZeroBytesAtTheEndAndBackslashesInCommentsDoNotMatter) {
-    const Scene scene =
+    const LoadedScene scene =
         loadObj("# C:\\models\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + std::string(16, '\0'));
     EXPECT_EQ(scene.geometry.positions[1], glm::vec3(1, 0, 0));
 }
@@ -207,7 +207,7 @@ TEST_F(LenientTest, LibrariesAreFoundAsTheyWereMeant) {
     write("Beside.mtl", "newmtl red\nKd 1 0 0\n");
     for (const char* name : {".\\materials\\red.mtl", "materials\\Red.MTL", "\"materials/red.mtl\"",
                              "beside.mtl", "C:\\work\\beside.mtl", "/no/such/folder/Beside.mtl"}) {
-        const Scene scene = loadObj(fmt::format("mtllib {}\nusemtl red\n{}", name, kTriangleObj));
+        const LoadedScene scene = loadObj(fmt::format("mtllib {}\nusemtl red\n{}", name, kTriangleObj));
         EXPECT_EQ(scene.materials[scene.geometry.materials[0]].baseColor, glm::vec3(1, 0, 0)) << name;
     }
 }

@@ -16,9 +16,9 @@ class ManyTest : public SceneFiles {
     static constexpr int kMany = 20'000;
 
     /// In tenths of a second; what looks through all others for each takes several seconds.
-    Scene loadSoon(const std::string& name) const {
+    LoadedScene loadSoon(const std::string& name) const {
         const std::clock_t start = std::clock();
-        Scene scene = load(name);
+        LoadedScene scene = load(name);
         EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
         return scene;
     }
@@ -39,7 +39,7 @@ TEST_F(ManyTest, MaterialsOfMeshAndScene) {
     std::string materials = repeated("\"m{}\": {{\"diffuse\": 0.25}},");
     materials.pop_back();
     write("scene.json", R"({"duolux": 1, "objects": [{"mesh": "m.obj"}], "materials": {)" + materials + "}}");
-    const Scene scene = loadSoon("scene.json");
+    const LoadedScene scene = loadSoon("scene.json");
     EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(0.25f));
     EXPECT_EQ(scene.materials[kMany - 1].baseColor, glm::vec3(0.25f));
 }
@@ -48,7 +48,7 @@ TEST_F(ManyTest, ObjectsOfOneMeshWarnOnce) {
     write("t.obj", std::string(kTriangleObj) + "f 1 1 2\n");
     write("scene.json", R"({"duolux": 1, "objects": [)" + repeated("{{\"mesh\": \"t.obj\"}}, ") +
                             R"({"mesh": "t.obj", "transform": [1,0,0,5, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})");
-    const Scene scene = loadSoon("scene.json");
+    const LoadedScene scene = loadSoon("scene.json");
     EXPECT_EQ(scene.geometry.triangles.size(), kMany + 1u + 2u);
     EXPECT_EQ(scene.geometry.positions[3 * kMany].x, 5.0f);
     ASSERT_EQ(scene.warnings.size(), 2u);
@@ -72,7 +72,7 @@ TEST_F(ManyTest, LightsAreNoReasonToLoseTheModel) {
     lights.pop_back();
     write("one.obj", kTriangleObj);
     write("scene.json", R"({"duolux": 1, "objects": [{"mesh": "one.obj"}], "lights": [)" + lights + "]}");
-    const Scene scene = loadSoon("scene.json");
+    const LoadedScene scene = loadSoon("scene.json");
     EXPECT_LT(glm::distance(scene.camera.target, glm::vec3(0.5f, 0.5f, 0.0f)), 1.0f);
     EXPECT_LT(glm::distance(scene.camera.position, scene.camera.target), 10.0f);
 }
@@ -88,7 +88,7 @@ TEST_F(ManyTest, Lights) {
 
 TEST_F(ManyTest, LibrariesThatAreMissingAreOneWarning) {
     write("mesh.obj", repeated("mtllib none{}.mtl\n") + std::string(kTriangleObj));
-    const Scene scene = loadSoon("mesh.obj");
+    const LoadedScene scene = loadSoon("mesh.obj");
     ASSERT_EQ(scene.warnings.size(), 2u);
     EXPECT_THAT(scene.warnings[0].text,
                 HasSubstr("none0.mtl: no such file: its materials are grey (19999 more MTL"));

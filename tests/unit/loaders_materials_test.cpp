@@ -21,13 +21,13 @@ class MaterialsTest : public SceneFiles {
 
     /// Of the first triangle.
     const Material materialOf(const std::string& statements) const {
-        const Scene scene = loadObj(statements + "\n" + std::string(kTriangleObj));
+        const LoadedScene scene = loadObj(statements + "\n" + std::string(kTriangleObj));
         return scene.materials[scene.geometry.materials[0]];
     }
 
-    Scene timed(const std::string& name) const {
+    LoadedScene timed(const std::string& name) const {
         const std::clock_t start = std::clock();
-        Scene scene = load(name);
+        LoadedScene scene = load(name);
         EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
         return scene;
     }
@@ -35,7 +35,8 @@ class MaterialsTest : public SceneFiles {
 
 TEST_F(MaterialsTest, FacesWithoutOneAreGreyWhateverTheFileCallsDefault) {
     write("m.mtl", "newmtl default\nKd 1 0 0\n");
-    const Scene scene = loadObj("mtllib m.mtl\n" + std::string(kTriangleObj) + "usemtl default\nf 1 2 3\n");
+    const LoadedScene scene =
+        loadObj("mtllib m.mtl\n" + std::string(kTriangleObj) + "usemtl default\nf 1 2 3\n");
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].baseColor, glm::vec3(0.8f));
     EXPECT_EQ(scene.materials[scene.geometry.materials[1]].baseColor, glm::vec3(1, 0, 0));
 }
@@ -70,7 +71,7 @@ TEST_F(MaterialsTest, LibrariesWithCommentsQuotesAndWithoutExtension) {
 
 TEST_F(MaterialsTest, ALibraryThatCannotBeReadLeavesGrey) {
     write("m.mtl", std::string("newmtl red\nKd \0 0 0\n", 20));
-    const Scene scene = loadObj("mtllib m.mtl\nusemtl red\n" + std::string(kTriangleObj));
+    const LoadedScene scene = loadObj("mtllib m.mtl\nusemtl red\n" + std::string(kTriangleObj));
     EXPECT_EQ(scene.materials[scene.geometry.materials[0]].baseColor, glm::vec3(0.8f));
     EXPECT_THAT(textsOf(scene.warnings),
                 Contains(HasSubstr("m.mtl: line 2: holds a zero byte; expected a text file: its "
@@ -102,7 +103,8 @@ TEST_F(MaterialsTest, StrictReadingRefusesWhatIsNotThere) {
 }
 
 TEST_F(MaterialsTest, WarningsAreShort) {
-    const Scene scene = loadObj("mtllib " + std::string(1 << 20, 'x') + ".mtl\n" + std::string(kTriangleObj));
+    const LoadedScene scene =
+        loadObj("mtllib " + std::string(1 << 20, 'x') + ".mtl\n" + std::string(kTriangleObj));
     EXPECT_LT(scene.warnings.at(0).text.size(), 1100u);
     EXPECT_THAT(scene.warnings[0].text, HasSubstr("no such file"));
 }
@@ -110,7 +112,8 @@ TEST_F(MaterialsTest, WarningsAreShort) {
 TEST_F(MaterialsTest, MaterialsThatNoFaceHasAreLeftOutButMayBeNamed) {
     write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
     write("mesh.obj", "mtllib m.mtl\nusemtl empty\nusemtl red\n" + std::string(kTriangleObj));
-    const Scene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}, {"mesh": "./mesh.obj"}],
+    const LoadedScene scene =
+        loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}, {"mesh": "./mesh.obj"}],
         "materials": {"blue": {"diffuse": 0.5}, "empty": {}, "red": {"diffuse": 0.25}}})");
     ASSERT_EQ(scene.materials[0].baseColor, glm::vec3(0.25f));
     EXPECT_EQ(scene.content.materials, 1u);
@@ -137,7 +140,7 @@ TEST_F(MaterialsTest, TimeIsThatOfWhatIsUsed) {
     for (int i = 0; i < 5'000; ++i)
         copies += ", {\"mesh\": \"0.obj\"}";
     write("scene.json", R"({"duolux": 1, "objects": [)" + objects + copies + "]}");
-    const Scene scene = timed("scene.json");
+    const LoadedScene scene = timed("scene.json");
     EXPECT_EQ(scene.content.materials, 200u);
     EXPECT_EQ(scene.content.triangles, 5'200u);
     std::size_t textures = 0;

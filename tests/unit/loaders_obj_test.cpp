@@ -81,7 +81,8 @@ TEST_F(ObjTest, QuadrilateralIsCutOnceAndKeepsItsFront) {
 
 TEST_F(ObjTest, FacesBeforeAnyMaterialAreDefaultGrey) {
     write("m.mtl", "newmtl red\nKd 1 0 0\n");
-    const Scene scene = loadObj("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\n");
+    const LoadedScene scene =
+        loadObj("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\n");
     const Material& first = scene.materials[scene.geometry.materials[0]];
     EXPECT_EQ(first.name, "default");
     EXPECT_EQ(first.baseColor, glm::vec3(0.8f));
@@ -89,7 +90,8 @@ TEST_F(ObjTest, FacesBeforeAnyMaterialAreDefaultGrey) {
 }
 
 TEST_F(ObjTest, MissingMtlIsAWarning) {
-    const Scene scene = loadObj("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl brick wall \nf 1 2 3\n");
+    const LoadedScene scene =
+        loadObj("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl brick wall \nf 1 2 3\n");
     const Material& material = scene.materials[scene.geometry.materials[0]];
     EXPECT_EQ(material.name, "brick wall");
     EXPECT_EQ(material.baseColor, glm::vec3(0.8f));
@@ -102,7 +104,7 @@ TEST_F(ObjTest, MtlFilesWithBlanksOrSeveralOnALine) {
     write("my colours.mtl", "newmtl a\nKd 1 0 0\n");
     write("b.mtl", "newmtl b\nKd 0 1 0\n");
     write("c.mtl", "newmtl c\nKd 0 0 1\n");
-    const Scene scene = loadObj(
+    const LoadedScene scene = loadObj(
         "mtllib my colours.mtl\nmtllib b.mtl c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
         "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n");
     const auto diffuse = [&](std::size_t i) {
@@ -114,14 +116,14 @@ TEST_F(ObjTest, MtlFilesWithBlanksOrSeveralOnALine) {
 }
 
 TEST_F(ObjTest, DegenerateTrianglesAreLeftOutAndCounted) {
-    const Scene scene =
+    const LoadedScene scene =
         loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 1 1e-9 0\nf 1 1 2\nf 1 2 3\nf 1 2 4\nf 1 4 5\n");
     EXPECT_EQ(scene.geometry.triangles.size(), 1u + 2u);
     EXPECT_THAT(scene.warnings[0].text, HasSubstr("mesh.obj: 3 of 4 triangles left out: zero area"));
 }
 
 TEST_F(ObjTest, UnknownStatementsAreIgnoredWithAWarning) {
-    const Scene scene = loadObj(std::string(kTriangleObj) + "curv 0 1 1 2\nsurf 1\n");
+    const LoadedScene scene = loadObj(std::string(kTriangleObj) + "curv 0 1 1 2\nsurf 1\n");
     EXPECT_THAT(scene.warnings[0].text,
                 HasSubstr("mesh.obj: line 5: \"curv\" is not supported; 2 such lines are ignored"));
 }
@@ -136,7 +138,7 @@ TEST_F(ObjTest, LargeFilesAreReadInPartsThatFitTogether) {
         text += fmt::format("v {0} 0.12345678 0\nv {0} 1 0\nv {0} 0 1.0000000\nf -3 -2 {1}\n", i, 3 * i + 3);
     }
     ASSERT_GT(text.size(), std::size_t{9} << 20);
-    const Scene scene = loadObj(text);
+    const LoadedScene scene = loadObj(text);
     ASSERT_EQ(scene.geometry.triangles.size(), kTriangles + 2);
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
         ASSERT_EQ(scene.geometry.triangles[i], glm::uvec3(3 * i, 3 * i + 1, 3 * i + 2));

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST_F(PlyTest, IsASceneOfItsOwn) {
-    const Scene scene = load(write("mesh.ply", ascii(3, kThree, 1, "3 0 1 2\n")).filename().string());
+    const LoadedScene scene = load(write("mesh.ply", ascii(3, kThree, 1, "3 0 1 2\n")).filename().string());
     EXPECT_EQ(scene.content.triangles, 1u);
     ASSERT_FALSE(scene.materials.empty());
     EXPECT_EQ(scene.materials[0].name, "default");
@@ -30,7 +30,7 @@ TEST_F(PlyTest, IsASceneOfItsOwn) {
 
 TEST_F(PlyTest, IsAMeshOfAJsonScene) {
     write("mesh.ply", ascii(3, kThree, 1, "3 0 1 2\n"));
-    const Scene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.ply"}, {"mesh": "mesh.ply",
+    const LoadedScene scene = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.ply"}, {"mesh": "mesh.ply",
         "transform": [2,0,0,0, 0,2,0,0, 0,0,2,1, 0,0,0,1]}],
         "materials": {"default": {"diffuse": [0.1, 0.2, 0.3]}}})");
     EXPECT_EQ(scene.content.triangles, 2u);
@@ -175,7 +175,7 @@ TEST_F(PlyTest, ColoursStayWithTheirVertices) {
     write("grey.obj", kTriangleObj);
     const std::string red = R"({"mesh": "red.ply"})", grey = R"({"mesh": "grey.obj"})";
     for (const std::string& objects : {red + ", " + grey, grey + ", " + red + ", " + red}) {
-        const Scene scene = loadJson(R"({"duolux": 1, "objects": [)" + objects + "]}");
+        const LoadedScene scene = loadJson(R"({"duolux": 1, "objects": [)" + objects + "]}");
         const Geometry& geometry = scene.geometry;
         ASSERT_EQ(geometry.colours.size(), geometry.positions.size()) << "the added lamp has colours, too";
         for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
@@ -185,7 +185,7 @@ TEST_F(PlyTest, ColoursStayWithTheirVertices) {
                 EXPECT_EQ(geometry.colours[geometry.triangles[i][k]],
                           isRed ? glm::vec3(1, 0, 0) : glm::vec3(1));
         }
-        Scene without = scene;
+        LoadedScene without = scene;
         removeLamp(without);
         EXPECT_EQ(without.geometry.colours.size(), without.geometry.positions.size());
     }

@@ -54,8 +54,8 @@ TEST(Energy, EigenvaluesOfAFullMatrix) {
 }
 
 /// A rectangle of area 6 that emits, and a triangle of area 2 that does not.
-Scene twoAreas() {
-    Scene scene;
+LoadedScene twoAreas() {
+    LoadedScene scene;
     scene.geometry.positions = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 2}};
     scene.geometry.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 4}};
     scene.geometry.materials = {0, 0, 1};
@@ -67,7 +67,7 @@ Scene twoAreas() {
 }
 
 TEST(Energy, PowerOfEmitters) {
-    Scene scene = twoAreas();
+    LoadedScene scene = twoAreas();
     EmitterSummary emitters = summariseEmitters(scene);
     EXPECT_EQ(emitters.triangles, 2u);
     EXPECT_NEAR(emitters.area, 6.0, 1e-9);

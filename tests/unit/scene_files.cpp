@@ -25,15 +25,15 @@ fs::path SceneFiles::write(const std::string& name, std::string_view text) const
     return folder_ / name;
 }
 
-Scene SceneFiles::load(const std::string& name) const {
+LoadedScene SceneFiles::load(const std::string& name) const {
     return loadScene(folder_ / name);
 }
 
-Scene SceneFiles::loadObj(std::string_view text) const {
+LoadedScene SceneFiles::loadObj(std::string_view text) const {
     return loadScene(write("mesh.obj", text));
 }
 
-Scene SceneFiles::loadJson(std::string_view text) const {
+LoadedScene SceneFiles::loadJson(std::string_view text) const {
     return loadScene(write("scene.json", text));
 }
 

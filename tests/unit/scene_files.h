@@ -19,9 +19,9 @@ class SceneFiles : public testing::Test {
     /// Returns the file's path.
     std::filesystem::path write(const std::string& name, std::string_view text) const;
 
-    Scene load(const std::string& name) const;
-    Scene loadObj(std::string_view text) const;
-    Scene loadJson(std::string_view text) const;
+    LoadedScene load(const std::string& name) const;
+    LoadedScene loadObj(std::string_view text) const;
+    LoadedScene loadJson(std::string_view text) const;
 
     /// The error line, without the folder; fails if there is no InputError or it has several lines.
     std::string errorOf(const std::string& name, Reading reading = Reading::kLenient) const;

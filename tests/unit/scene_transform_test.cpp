@@ -93,7 +93,7 @@ TEST(SceneTransform, RegularIsAboutShapeNotSize) {
 }
 
 TEST(SceneTransform, AppendingShiftsIndices) {
-    Scene scene;
+    LoadedScene scene;
     Mesh first;
     first.geometry = makeTriangle();
     first.geometry.normals.clear();

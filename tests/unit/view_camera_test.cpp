@@ -102,7 +102,7 @@ TEST(ViewCamera, NothingFlatIsSeenEdgeOn) {
 }
 
 /// With a lamp in it that lights it.
-Scene litBox(const glm::vec3& opening, bool inward) {
+LoadedScene litBox(const glm::vec3& opening, bool inward) {
     SceneBuilder builder;
     builder.scene = openBox(opening, inward);
     Material lamp;
@@ -115,8 +115,8 @@ Scene litBox(const glm::vec3& opening, bool inward) {
 
 TEST(ViewCamera, LooksIntoOpenBoxes) {
     for (const glm::vec3& opening : kOpenings) {
-        for (const Scene& scene : {openBox(opening, true), openBox(opening, false), litBox(opening, true),
-                                   litBox(opening, false)}) {
+        for (const LoadedScene& scene : {openBox(opening, true), openBox(opening, false),
+                                         litBox(opening, true), litBox(opening, false)}) {
             const Camera camera = framed(scene);
             EXPECT_LT(glm::dot(viewOf(camera), opening), -0.95f) << opening.x << " " << opening.z;
             EXPECT_GT(glm::dot(camera.position, opening), 1.0f);
@@ -148,7 +148,7 @@ TEST(ViewCamera, ModelsWithoutABottomAreSolid) {
 }
 
 TEST(ViewCamera, AFewTrianglesFarAwayAreLeftOut) {
-    const Scene box = boxScene({-1, -1, -1}, {1, 1, 1});
+    const LoadedScene box = boxScene({-1, -1, -1}, {1, 1, 1});
     const Camera alone = framed(box);
     for (const float distance : {20.0f, 1e3f, 1e6f}) {
         SceneBuilder builder;
@@ -184,7 +184,7 @@ TEST(ViewCamera, ManyTrianglesAreFramedAsFew) {
 }
 
 TEST(ViewCamera, WhatIsSaidIsKeptAndTheRestFollows) {
-    const Scene scene = boxScene({-1, -1, -1}, {1, 1, 1});
+    const LoadedScene scene = boxScene({-1, -1, -1}, {1, 1, 1});
     CameraChoice from;
     from.position = {9, 1, 0};
     const Camera seen = framed(scene, from);
@@ -215,8 +215,8 @@ class ViewCameraFiles : public SceneFiles {};
 TEST_F(ViewCameraFiles, JsonWithoutCameraFramesTheMeshesNotTheLights) {
     write("mesh.obj", kTriangleObj);
     const std::string mesh = R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}])";
-    const Scene alone = loadJson(mesh + R"(, "lights": []})");
-    const Scene lit =
+    const LoadedScene alone = loadJson(mesh + R"(, "lights": []})");
+    const LoadedScene lit =
         loadJson(mesh + R"(, "lights": [{"type": "rectangle", "origin": [-40, 90, -40], "edge1": [0, 0, 90],
         "edge2": [90, 0, 0], "emission": {"invisible": 1}}]})");
     for (const Scene* scene : {&alone, &lit}) {

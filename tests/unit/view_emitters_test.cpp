@@ -34,11 +34,12 @@ SceneBuilder room() {
     return builder;
 }
 
-std::vector<std::string> warningsOf(const Scene& scene, const Camera& camera) {
-    return textsOf(emitterWarnings(Surface(scene, scene.geometry.triangles.size()), camera));
+std::vector<std::string> warningsOf(const LoadedScene& scene, const Camera& camera) {
+    return textsOf(
+        emitterWarnings(Surface(scene, scene.geometry.triangles.size()), camera, scene.settings.aspect()));
 }
 
-std::vector<std::string> warningsOf(const Scene& scene) {
+std::vector<std::string> warningsOf(const LoadedScene& scene) {
     return warningsOf(scene, framed(scene));
 }
 

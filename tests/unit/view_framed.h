@@ -9,14 +9,16 @@
 namespace duolux::test {
 
 /// The camera that is chosen for a scene, all of which it should show.
-inline Camera framed(const Scene& scene, const CameraChoice& choice = {}, glm::uvec2 size = {512, 512}) {
+inline Camera framed(const LoadedScene& scene, const CameraChoice& choice = {},
+                     glm::uvec2 size = {512, 512}) {
     const Surface surface(scene, scene.geometry.triangles.size());
     const Illumination illumination(surface);
     const ViewSamples samples(surface, illumination);
     return frameCamera(choice, surface, samples, static_cast<float>(size.x) / static_cast<float>(size.y));
 }
 
-inline Scene boxScene(const glm::vec3& lower, const glm::vec3& upper, Facing facing = Facing::kOutward) {
+inline LoadedScene boxScene(const glm::vec3& lower, const glm::vec3& upper,
+                            Facing facing = Facing::kOutward) {
     SceneBuilder builder;
     builder.box(lower, upper, facing, builder.add(Material{}));
     return builder.scene;
@@ -27,8 +29,8 @@ inline constexpr std::array<glm::vec3, 4> kOpenings{
     {{1.0f, 0.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}}};
 
 /// From -1 to 1, without the side that `opening` points to.
-inline Scene openBox(const glm::vec3& opening, bool inward) {
-    Scene scene = boxScene(glm::vec3(-1), glm::vec3(1), inward ? Facing::kInward : Facing::kOutward);
+inline LoadedScene openBox(const glm::vec3& opening, bool inward) {
+    LoadedScene scene = boxScene(glm::vec3(-1), glm::vec3(1), inward ? Facing::kInward : Facing::kOutward);
     Geometry& geometry = scene.geometry;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
@@ -43,8 +45,8 @@ inline Scene openBox(const glm::vec3& opening, bool inward) {
 }
 
 /// A height field of 2 `across`^2 triangles.
-inline Scene terrain(std::uint32_t across) {
-    Scene scene;
+inline LoadedScene terrain(std::uint32_t across) {
+    LoadedScene scene;
     scene.materials = {Material{}};
     const auto n = static_cast<float>(across);
     for (std::uint32_t i = 0; i <= across; ++i) {

@@ -92,7 +92,7 @@ TEST(ViewInside, WallsMayBeThickerThanTheRoomIsHigh) {
 TEST(ViewInside, SolidsAreSeenFromOutside) {
     EXPECT_FALSE(isInside(framed(boxScene({-1, -1, -1}, {1, 1, 1})).position, glm::vec3(1)));
     // A lamp outside of a closed body does not light it from within.
-    Scene scene = boxScene({-1, -1, -1}, {1, 1, 1});
+    LoadedScene scene = boxScene({-1, -1, -1}, {1, 1, 1});
     SceneBuilder builder;
     builder.scene = scene;
     Material lamp;

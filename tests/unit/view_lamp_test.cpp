@@ -14,7 +14,7 @@ using testing::IsEmpty;
 class LightTest : public SceneFiles {
   protected:
     /// The two triangles that were added come last.
-    static void expectDefaultLight(const Scene& scene) {
+    static void expectDefaultLight(const LoadedScene& scene) {
         const Geometry& geometry = scene.geometry;
         const std::size_t first = geometry.triangles.size() - 2;
         const Material& material = scene.materials[geometry.materials[first]];
@@ -33,7 +33,7 @@ class LightTest : public SceneFiles {
 
     /// Of a small patch in the middle of the view, as far as the middle of the scene, that faces the light,
     /// by subdividing the light.
-    static float radianceOfWhite(const Scene& scene) {
+    static float radianceOfWhite(const LoadedScene& scene) {
         const Geometry& geometry = scene.geometry;
         Geometry seen = geometry;
         seen.triangles.resize(seen.triangles.size() - 2);
@@ -67,7 +67,7 @@ class LightTest : public SceneFiles {
 };
 
 TEST_F(LightTest, IsAddedToADarkObjWithAWarning) {
-    const Scene scene = loadObj(kTriangleObj);
+    const LoadedScene scene = loadObj(kTriangleObj);
     ASSERT_EQ(scene.geometry.triangles.size(), 3u);
     expectDefaultLight(scene);
     EXPECT_THAT(textsOf(scene.warnings),
@@ -78,7 +78,7 @@ TEST_F(LightTest, IsAddedToADarkObjWithAWarning) {
 TEST_F(LightTest, LooksTheSameAtEveryScale) {
     for (const char* size : {"0.001", "1000000"}) {
         const std::string s(size);
-        const Scene scene = loadObj("v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nf 1 2 3\n");
+        const LoadedScene scene = loadObj("v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nf 1 2 3\n");
         expectDefaultLight(scene);
         EXPECT_NEAR(radianceOfWhite(scene), 0.8f, 0.04f);
     }
@@ -86,7 +86,7 @@ TEST_F(LightTest, LooksTheSameAtEveryScale) {
 
 TEST_F(LightTest, IsNotAddedIfSomethingEmits) {
     write("m.mtl", "newmtl lamp\nKe 1 1 1\n");
-    const Scene scene = loadObj("mtllib m.mtl\nusemtl lamp\n" + std::string(kTriangleObj));
+    const LoadedScene scene = loadObj("mtllib m.mtl\nusemtl lamp\n" + std::string(kTriangleObj));
     EXPECT_EQ(scene.geometry.triangles.size(), 1u);
     EXPECT_THAT(textsOf(scene.warnings), IsEmpty());
 }
@@ -99,21 +99,21 @@ TEST_F(LightTest, AnUnusedEmitterDoesNotCount) {
 TEST_F(LightTest, IsNotAddedWhereNoSurfaceScatters) {
     write("m.mtl", "newmtl black\nKd 0 0 0\nnewmtl dim\nKd 0 0 0\nKe 0.01 0 0\n");
     write("mesh.obj", "mtllib m.mtl\nusemtl black\n" + std::string(kTriangleObj));
-    const Scene dark = load("mesh.obj");
+    const LoadedScene dark = load("mesh.obj");
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
     EXPECT_THAT(textsOf(dark.warnings),
                 testing::ElementsAre("all surfaces are black: they neither reflect nor emit "
                                      "light: the picture will be black"));
     // Surfaces that only pass light on, before a dim emitter that is seen as it is.
     write("mesh.obj", "mtllib m.mtl\nusemtl dim\n" + std::string(kTriangleObj) + "usemtl grey\nf 1 3 2\n");
-    const Scene seen = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "reflectance":
+    const LoadedScene seen = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "reflectance":
         {"opaque": [[0, 0], [0, 0]], "transparent": [[1, 0], [0, 1]]}})");
     EXPECT_EQ(seen.geometry.triangles.size(), 2u);
 }
 
 TEST_F(LightTest, JsonThatSaysLightsGetsNoOther) {
     write("mesh.obj", kTriangleObj);
-    const Scene dark = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "lights": []})");
+    const LoadedScene dark = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "lights": []})");
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
     EXPECT_THAT(textsOf(dark.warnings), testing::ElementsAre(HasSubstr("the picture will be black")));
 }
@@ -123,7 +123,7 @@ TEST_F(LightTest, JsonWithoutLightsGetsOneBehindItsCamera) {
     for (const char* camera : {R"({"position": [0, 0, -3], "target": [0, 0, 0]})",
                                R"({"position": [9, 9, 9], "target": [20, 9, 9], "vfov": 170})",
                                R"({"position": [0.2, 0.2, 5], "target": [0.2, 0.2, 4], "up": [1, 0, 0]})"}) {
-        const Scene scene = loadJson(
+        const LoadedScene scene = loadJson(
             std::string(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "camera": )") + camera + "}");
         ASSERT_EQ(scene.geometry.triangles.size(), 3u);
         expectDefaultLight(scene);
@@ -138,10 +138,10 @@ std::string planeAndLamp(const char* radiance) {
 
 TEST_F(LightTest, EmittersThatLightNearlyNothingDoNotCount) {
     write("m.mtl", "newmtl dim\nKe 0.01 0 0\nnewmtl bright\nKe 200 200 200\n");
-    const Scene dim = loadObj(planeAndLamp("dim"));
+    const LoadedScene dim = loadObj(planeAndLamp("dim"));
     expectDefaultLight(dim);
     EXPECT_THAT(textsOf(dim.warnings), testing::ElementsAre(HasSubstr("less than 5 % of white")));
-    const Scene bright = loadObj(planeAndLamp("bright"));
+    const LoadedScene bright = loadObj(planeAndLamp("bright"));
     EXPECT_EQ(bright.geometry.triangles.size(), 4u);
     EXPECT_THAT(textsOf(bright.warnings), IsEmpty());
 }
@@ -151,15 +151,15 @@ TEST_F(LightTest, IsAddedOrLeftOutAsTheCallerSays) {
     const auto file = write("mesh.obj", planeAndLamp("bright"));
     expectDefaultLight(loadScene(file, {.lamp = Lamp::kAlways}));
     write("mesh.obj", planeAndLamp("dim"));
-    const Scene none = loadScene(file, {.lamp = Lamp::kNever});
+    const LoadedScene none = loadScene(file, {.lamp = Lamp::kNever});
     EXPECT_EQ(none.geometry.triangles.size(), 4u);
-    const Scene dark = loadScene(write("dark.obj", kTriangleObj), {.lamp = Lamp::kNever});
+    const LoadedScene dark = loadScene(write("dark.obj", kTriangleObj), {.lamp = Lamp::kNever});
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
     EXPECT_THAT(textsOf(dark.warnings), testing::ElementsAre(HasSubstr("the picture will be black")));
 }
 
 TEST_F(LightTest, StandsInsideAClosedRoomOutOfView) {
-    const Scene scene = loadObj(
+    const LoadedScene scene = loadObj(
         "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\nv -2 2 -2\nv 2 2 -2\nv 2 2 2\nv -2 2 2\n"
         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n");
     const Geometry& geometry = scene.geometry;

@@ -13,7 +13,8 @@ namespace {
 constexpr int kRays = 400;
 
 /// Distance to the nearest of the scene's triangles, by testing all of them in double precision.
-std::optional<double> nearest(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction) {
+std::optional<double> nearest(const LoadedScene& scene, const glm::dvec3& origin,
+                              const glm::dvec3& direction) {
     std::optional<double> result;
     for (const glm::uvec3& t : scene.geometry.triangles) {
         const glm::dvec3 a(scene.geometry.positions[t.x]);
@@ -34,7 +35,7 @@ std::optional<double> nearest(const Scene& scene, const glm::dvec3& origin, cons
 
 TEST(ViewSurface, FindsTheNearestTriangleAtAnyScale) {
     for (const float size : {1e-3f, 1.0f, 1e5f}) {
-        const Scene scene = transformed(terrain(12), size, size * glm::vec3(100.0f, -50.0f, 70.0f));
+        const LoadedScene scene = transformed(terrain(12), size, size * glm::vec3(100.0f, -50.0f, 70.0f));
         const Surface surface(scene, scene.geometry.triangles.size());
         ASSERT_EQ(surface.triangles().size(), scene.geometry.triangles.size());
         int hits = 0;
@@ -56,7 +57,7 @@ TEST(ViewSurface, FindsTheNearestTriangleAtAnyScale) {
 }
 
 TEST(ViewSurface, ManyTrianglesBecomeFewerWithoutHoles) {
-    const Scene scene = terrain(400);
+    const LoadedScene scene = terrain(400);
     const Surface surface(scene, scene.geometry.triangles.size());
     EXPECT_LT(surface.triangles().size(), 100'000u);
     for (int i = 0; i < kRays; ++i) {

@@ -29,12 +29,12 @@ ChannelLight light(const Emission& emission) {
     return reference::channelsOf(emission.invisible, emission.visible);
 }
 
-Scene view(SceneBuilder builder, glm::vec3 position, float vfov, std::uint32_t bounces) {
-    Scene& scene = builder.scene;
+LoadedScene view(SceneBuilder builder, glm::vec3 position, float vfov, std::uint32_t bounces) {
+    LoadedScene& scene = builder.scene;
     scene.reflectance = preset("global");
     scene.camera = {position, position + glm::vec3(0.0f, 0.0f, -1.0f), {0, 1, 0}, vfov};
-    scene.render.width = scene.render.height = 16;
-    scene.render.bounces = bounces;
+    scene.settings.width = scene.settings.height = 16;
+    scene.settings.bounces = bounces;
     return scene;
 }
 

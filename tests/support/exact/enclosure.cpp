@@ -44,11 +44,11 @@ ExactCase enclosure(std::string name, const Walls& walls) {
     material.emission = walls.emission;
     material.emission.sides = walls.sides;
     builder.sphere(glm::vec3(0.0f), 2.0f, 1, Facing::kInward, builder.add(material));
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = walls.reflectance;
     scene.camera = {{0.3f, -0.2f, 0.4f}, {1.0f, 0.7f, -0.6f}, {0, 1, 0}, 80.0f};
-    scene.render.width = scene.render.height = 32;
-    scene.render.bounces = walls.bounces;
+    scene.settings.width = scene.settings.height = 32;
+    scene.settings.bounces = walls.bounces;
     const ChannelMatrix scatter = scaled(albedo, reference::channelsOf(walls.reflectance.opaque));
     const ChannelLight emission = reference::channelsOf(walls.emission.invisible, walls.emission.visible);
     return {std::move(name), scene,

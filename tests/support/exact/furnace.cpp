@@ -65,11 +65,11 @@ ExactCase furnace(std::string name, bool panes, std::uint32_t bounces) {
         builder.quad({1.2f, -0.9f, -1.5f}, {1.0f, -0.8f, 1.0f}, {1.3f, 0.9f, 1.2f}, {1.1f, 1.0f, -1.4f},
                      second);
     }
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = preset("global");
     scene.camera = {{0.2f, 0.3f, 1.7f}, {-0.1f, -0.1f, -1.0f}, {0, 1, 0}, 60.0f};
-    scene.render.width = scene.render.height = 32;
-    scene.render.bounces = bounces;
+    scene.settings.width = scene.settings.height = 32;
+    scene.settings.bounces = bounces;
     ChannelLight expected;
     for (std::size_t i = 0; i < 3; ++i)
         expected[i] = (1.0 - std::pow(kKept[i], bounces + 1.0)) * kLight[i];

@@ -92,11 +92,11 @@ ExactCase floorImage(const Floor& setup) {
         down = reference::channelsOf(pane) * down;
         height -= setup.distance;
     }
-    Scene& scene = builder.scene;
+    LoadedScene& scene = builder.scene;
     scene.reflectance = setup.reflectance;
     scene.camera = {{1.5f, 1.1f, 3.0f}, {-1.0f, 0.0f, 0.5f}, {0, 1, 0}, 24.0f};
-    scene.render.width = scene.render.height = kSize;
-    scene.render.bounces = 1;
+    scene.settings.width = scene.settings.height = kSize;
+    scene.settings.bounces = 1;
     const ChannelMatrix scatter = scaled(floor.baseColor, reference::channelsOf(setup.reflectance.opaque));
     const ChannelLight seen = (1.0 / std::numbers::pi) * (up * scatter * down * light(lamp.emission));
 

@@ -42,7 +42,7 @@ ExactCase lit(std::string name, const Reflectance& reflectance, const std::vecto
     }
     // With stratified choices among so few points, errors of several pixels are equal, and do not vary with
     // the seed.
-    scene.builder().scene.render.sampler = Sampler::kIndependent;
+    scene.builder().scene.settings.sampler = Sampler::kIndependent;
     return scene.finish(std::move(name), 3, scene.reflected(sum));
 }
 

@@ -20,11 +20,11 @@ ReceiverScene::ReceiverScene(const Receiver& receiver, glm::vec3 eye) : receiver
     const glm::vec3 u = 0.1f * glm::normalize(glm::cross(n, glm::vec3(0, 0, 1)));
     const glm::vec3 v = 0.1f * glm::normalize(glm::cross(n, u));
     builder_.quad(-u - v, u - v, u + v, v - u, index);
-    Scene& scene = builder_.scene;
+    LoadedScene& scene = builder_.scene;
     scene.reflectance = preset("local");
     // Seen at a grazing angle the footprint is 0.0001 across, and centred on the origin.
     scene.camera = {4.0f * glm::normalize(eye), glm::vec3(0.0f), {0, 1, 0}, 0.0002f};
-    scene.render.width = scene.render.height = 16;
+    scene.settings.width = scene.settings.height = 16;
 }
 
 void ReceiverScene::emitter(const std::vector<Vec3>& polygon, const Emission& emission,
@@ -48,7 +48,7 @@ ChannelLight ReceiverScene::reflected(const ChannelLight& irradiance) const {
 
 ExactCase ReceiverScene::finish(std::string name, std::uint32_t bounces, const ChannelLight& expected) const {
     ExactCase result{std::move(name), builder_.scene, uniformImage(16, 16, expected)};
-    result.scene.render.bounces = bounces;
+    result.scene.settings.bounces = bounces;
     result.search = reference::LightSearch::kArea;
     result.relative = 1e-4;
     result.onePoint = true;
