@@ -20,7 +20,7 @@ void warn(std::string_view text);
 /// Writes a result to standard output and flushes it. Throws MachineError if this or an earlier write failed.
 void printResult(std::string_view text = {});
 
-/// The same for a text that nobody needs as a whole: a reader that leaves (`--help | head`) is no error.
+/// The same for text that a reader may stop reading (`--help | head`), which is not an error.
 void printHelp(std::string_view text);
 
 }  // namespace duolux

@@ -18,7 +18,7 @@ namespace {
 constexpr double kLitPart = 0.01;
 constexpr float kDarkestGrey = 1.0f / (255.0f * 12.92f);  // sRGB code 1 of 255, linear
 
-/// As options take it: in the coordinates of the file.
+/// A position as options take it: in the coordinates of the file.
 std::string point(const Scene& scene, const glm::vec3& place) {
     const glm::dvec3 p = placeInFile(scene, place);
     return fmt::format("{},{},{}", p.x, p.y, p.z);
@@ -72,7 +72,7 @@ std::string describe(const Scene& scene, const DarkReason& reason) {
     return "little light reaches what the camera sees; try --lamp, or more --spp";
 }
 
-/// How many pixels are how bright, by their brightest channels, in half stops.
+/// A histogram of the pixels' brightest channels, in half stops.
 class Brightness {
   public:
     Brightness(const ImageRows& rows, glm::vec2 display)

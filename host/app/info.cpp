@@ -35,7 +35,7 @@ std::string toText(const Scene& scene, const glm::vec3& place) {
     return fmt::format("{}, {}, {}", v.x, v.y, v.z);
 }
 
-/// One number if the channels agree.
+/// A single number if all channels are equal.
 std::string colour(const glm::dvec3& c, int digits = 4) {
     if (c.x == c.y && c.y == c.z) return fmt::format("{:.{}g}", c.x, digits);
     return fmt::format("{0:.{3}g}, {1:.{3}g}, {2:.{3}g}", c.x, c.y, c.z, digits);
@@ -59,7 +59,7 @@ void printField(std::string_view name, std::string_view value) {
     fmt::print("{:<13}{}\n", name, value);
 }
 
-/// Columns as wide as their widest cell. The first row is the heading.
+/// Prints a table whose columns are as wide as their widest cells. The first row is the heading.
 void printTable(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows) {
@@ -148,7 +148,7 @@ void printMaterials(const Scene& scene) {
     printTable(rows);
 }
 
-/// Which material, in which channel, returns the most of the light that meets it.
+/// Prints which material returns the largest fraction of the light that it receives, and in which channel.
 void printEnergy(const LoadedScene& scene) {
     const LargestFactor largest = largestFactor(scene);
     fmt::print("\n");

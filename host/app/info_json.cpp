@@ -98,7 +98,7 @@ Json addedLamp(const Scene& scene) {
     const Geometry& geometry = scene.geometry;
     const std::size_t first = scene.content.triangles;
     if (geometry.triangles.size() == first) return nullptr;
-    // Its two triangles share the first corner, as those of all rectangles.
+    // As in all rectangles, its two triangles share the first corner.
     const glm::uvec3 corners = geometry.triangles[first];
     const glm::vec3 origin = geometry.positions[corners.x];
     const glm::vec3 next = geometry.positions[corners.y], opposite = geometry.positions[corners.z];

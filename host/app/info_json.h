@@ -7,35 +7,35 @@
 
 namespace duolux {
 
-/// All that `duolux info` tells of a scene, for scripts. `lamp`: of addedLamp().
+/// The output of `duolux info --json`. `lamp`: see addedLamp.
 nlohmann::ordered_json infoJson(const LoadedScene& scene, const nlohmann::ordered_json& lamp);
 
 /// The lamp that was added to a scene, as an entry of a scene file's "lights"; null if there is none.
 nlohmann::ordered_json addedLamp(const Scene& scene);
 
-/// A place of the scene in the coordinates of its file, with as many digits as give the same place again.
+/// Converts a position to the coordinates of the scene's file, with enough digits to convert it back exactly.
 glm::dvec3 placeInFile(const Scene& scene, const glm::vec3& place);
 
-/// The camera as scene files give it.
+/// The camera as an entry of a scene file.
 nlohmann::ordered_json cameraOf(const Scene& scene);
 
-/// JSON on one line, with blanks.
+/// JSON on one line, with spaces after separators.
 std::string onOneLine(const nlohmann::ordered_json& json);
 
-/// Bytes of geometry on the host.
+/// Bytes that the geometry takes on the host.
 std::size_t memoryOf(const Geometry& geometry);
 
-/// Triangles that have shading normals.
+/// Number of triangles that have shading normals.
 std::size_t smoothTriangles(const Geometry& geometry);
 
-/// Triangles of each material.
+/// Number of triangles of each material.
 std::vector<std::size_t> trianglesOfMaterials(const Scene& scene);
 
-/// The material and the channel that return the most of the light that meets them.
+/// The material and the channel that return the largest fraction of the light they receive.
 struct LargestFactor {
     std::string material, channel;
     float factor = -1.0f;
-    bool mayGrow = false;  ///< of any material the series of bounces may have no sum
+    bool mayGrow = false;  ///< the sum over bounces may diverge for some material
 };
 LargestFactor largestFactor(const Scene& scene);
 

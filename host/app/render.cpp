@@ -213,7 +213,7 @@ void prepareResume(const RenderOptions& options, const Checkpoint& resumed, cons
     control.resume = &resumed.state;
 }
 
-/// The render's output, even if the device failed before the end.
+/// Renders. If the device fails before the end, returns the output so far and sets `failure`.
 RenderOutput renderWhatCanBe(Device& device, const LoadedScene& scene, const RenderControl& control,
                              std::optional<RenderFailure>& failure) {
     try {
@@ -224,7 +224,7 @@ RenderOutput renderWhatCanBe(Device& device, const LoadedScene& scene, const Ren
     }
 }
 
-/// A name that was mistyped must not cost a picture.
+/// Prevents a mistyped name from replacing an image.
 void requireNoOtherFile(const std::string& checkpoint) {
     std::error_code ec;
     if (checkpoint.empty() || !std::filesystem::is_regular_file(checkpoint, ec)) return;

@@ -29,7 +29,7 @@ struct SceneContents {
     struct Point {
         JsonNode node;
         glm::dvec3 position;
-        PointEmitter emitter;  ///< but for its position
+        PointEmitter emitter;  ///< except for its position
     };
     explicit SceneContents(Reading reading) : materialFiles(reading) {}
 
@@ -46,7 +46,7 @@ glm::dvec3 originOf(const SceneContents& contents);
 /// Moves the objects from the contents to a scene whose origin is set. Throws InputError.
 void appendObjects(SceneContents& contents, LoadedScene& scene);
 
-/// The same for the lights.
+/// Adds the lights to the scene. Throws InputError.
 void appendLights(const SceneContents& contents, LoadedScene& scene);
 
 }  // namespace duolux

@@ -10,8 +10,8 @@ namespace duolux {
 namespace {
 
 // Light paths are traced in batches of a few dispatches, all of which add to one film on the device. A batch
-// whose dispatches were all complete is taken over into the film of the render; if the driver has cut one
-// short, the batch is forgotten and traced again with smaller shares.
+// whose dispatches were all complete is added to the film of the render; if the driver cut one short, the
+// batch is discarded and traced again with less work per lane.
 class Shooter {
   public:
     explicit Shooter(RenderContext& context) : context_(context) {}
@@ -38,7 +38,7 @@ class Shooter {
     // Of one batch: the largest mean that a pixel may have (2^58 quanta a path) then fits 63 bits.
     static constexpr std::uint64_t kMostPathsPerPixel = 32;
 
-    /// A sum over lanes must not depend on which lane took which path, so it is exact.
+    /// Exact, so that a sum over lanes does not depend on which lane traced which path.
     __extension__ using Int128 = __int128;
 
     /// What a batch adds to the statistics.
@@ -53,7 +53,7 @@ class Shooter {
     void trace(LightKernel& kernel) {
         RenderStatistics& statistics = context_.statistics;
         context_.begin();
-        // Where nothing emits every path is a dark one.
+        // Without emitters, all paths are dark.
         if (context_.deviceScene.emitterChoices == 0) {
             context_.film.countLightPaths(context_.samplesTotal());
             statistics.samples = context_.samplesTotal();
@@ -77,7 +77,8 @@ class Shooter {
         context_.reportProgress();
     }
 
-    /// By the first paths of all: the same ones whatever range of paths is to be traced.
+    /// Chooses the quantum by the first paths of the whole render, which do not depend on the range of paths
+    /// to be traced.
     float chooseQuantum(LightKernel& kernel) {
         constexpr std::uint64_t kPaths = 4096;
         return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
@@ -113,7 +114,8 @@ class Shooter {
         ++context_.statistics.dispatchesCutShort;
     }
 
-    /// A path per pixel is traced in any case. `underWay`: paths of the batch.
+    /// Whether to stop for lack of time. At least one path per pixel is traced. `underWay`: paths of the
+    /// batch.
     bool finishEarly(std::uint64_t underWay) const {
         return context_.timeIsUp() && context_.film.lightPaths() + underWay >= context_.pixels();
     }
@@ -140,7 +142,7 @@ class Shooter {
         unsigned submitted = 0;
         unsigned received = 0;
         for (;;) {
-            // Keep two dispatches in flight, so that the device never waits.
+            // Two dispatches are kept in flight, so that the device never waits.
             while (submitted - received < 2 && submitted < dispatches && next < batchEnd && batch.complete &&
                    !(submitted > 0 && (context_.statistics.stopped || finishEarly(next - begin)))) {
                 const PathRange range{next, dispatchPaths(kernel, batchEnd - next)};

@@ -1,10 +1,10 @@
 // Connections of light paths to the camera, and the sums of the film that they add to.
 
-// Component that surfaces may scatter or pass on, the largest channel: without second columns the visible one is lost
-// on all but the camera.
+// What surfaces may scatter or transmit of a particle's flux, in its largest channel. Without a second column, the
+// visible component contributes only at the camera.
 float carried(Light l) { return maxComponent(l.invisible + (kSecondColumn ? l.visible : vec3(0.0))); }
 
-// How much light counts in a pixel.
+// The weight of light in a pixel.
 float rowWeighted(Light l) { return maxComponent(params.rowWeight.x * l.invisible + params.rowWeight.y * l.visible); }
 
 // Russian roulette on connections, where only a part of their worth is left.
@@ -27,7 +27,7 @@ void splat(inout LaneSums sums, Light light, Connection connection, uvec2 stream
     uint pixel = connection.pixel;
     vec3 total = light.invisible + light.visible;
     float sum = total.x + total.y + total.z;
-    // Not the other way round: NaN is to be dropped.
+    // Written so that NaN is dropped, too.
     bool fine = sum < kLargestRadiance;
     sums.nonFinite += fine ? 0u : 1u;
     if (!fine) return;
@@ -78,9 +78,9 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     // So is what a surface sends in a flat direction, which is dim by the cosine: a sixth of the rays for 6 to 8 % of
     // variance.
     survival *= outgoing.scatterings > 0u ? min(3.0 * cosine, 1.0) : 1.0;
-    uint dimension = sampleDimension(outgoing.scatterings, path.crossings, kDimensionCamera);
-    float roulette = drawChoice(path.stream, dimension).x;
-    // Not the other way round: what is not a number is traced, and counted when it arrives.
+    uint dimension = sampleDimension(outgoing.scatterings, path.crossings, kDimensionConnection);
+    float roulette = drawChoice(path.stream, dimension);
+    // Written so that NaN is traced, and counted when it arrives.
     connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
     connection.segment = leaveSurface(outgoing.point, camera.direction);
     connection.distance = camera.distance;

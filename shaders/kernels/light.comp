@@ -38,11 +38,11 @@ layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 
 // The particle of this number leaves its emitter. `outgoing`: what the camera may see of it.
 LightPath emitPath(uvec2 stream, out Outgoing outgoing) {
-    uint dimension = sampleDimension(0u, 0u, kDimensionLight);
-    EmitterChoice choice = chooseEmitter(params.emitterCount, drawWords(stream, dimension));
+    uvec2 words = drawWords(stream, sampleDimension(0u, 0u, kDimensionEmitter));
+    EmitterChoice choice = chooseEmitter(params.emitterCount, words);
     Emitter emitter = fetchEmitter(choice.index);
     EmitterPoint on = pointOnEmitter(emitter, choice.u);
-    float side = drawChoice(stream, dimension).y;
+    float side = drawChoice(stream, sampleDimension(0u, 0u, kDimensionSide));
     EmittedRay ray = emitRay(emitter, on, side, drawPair(stream, sampleDimension(0u, 0u, kDimensionEmission)));
     LightPath path;
     path.stream = stream;
@@ -67,9 +67,9 @@ bool endSegment(inout LightPath path, inout Vertex vertex) {
     if (!(weightSum > 0.0) || path.scatterings + 1u >= params.bounces) return false;
     // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted.
     float survival = path.scatterings >= 2u ? survivalProbability(weightSum / path.emitted) : 1.0;
-    uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
+    uint roulette = sampleDimension(path.scatterings, path.crossings, kDimensionRoulette);
     path.scattered = lightScale(path.scattered, vec3(weightSum / (vertex.weight * survival)));
-    return drawChoice(path.stream, choice).y < survival;
+    return drawChoice(path.stream, roulette) < survival;
 }
 
 // The particle leaves a vertex for a new segment.
@@ -97,7 +97,7 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     if (weight > 0.0) {
         float u = 0.0;
         if (kTransmittance != kTransmittanceZero) {
-            u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionChoice)).x;
+            u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionCrossing));
         }
         if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }

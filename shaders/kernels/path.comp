@@ -86,8 +86,8 @@ void endSegment(inout Path path, inout Vertex vertex) {
     if (!kPathsContinue || !(weightSum > 0.0)) return;
     // Russian roulette on the importance that all vertices of the segment would carry, in units of the camera's.
     float survival = path.scatterings >= 2u ? survivalProbability(weightSum) : 1.0;
-    uint choice = sampleDimension(path.scatterings, path.crossings, kDimensionChoice);
-    if (drawChoice(path.stream, choice).y >= survival) return;
+    uint roulette = sampleDimension(path.scatterings, path.crossings, kDimensionRoulette);
+    if (drawChoice(path.stream, roulette) >= survival) return;
 
     BsdfSample s = scatter(vertex, -path.segment.direction, path.stream, path.scatterings, kModeRadiance);
     path.importance = lightScale(path.scattered, s.weight * (weightSum / (vertex.weight * survival)));
@@ -113,12 +113,12 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     if (path.scatterings < params.bounces && materialScatters(hit.material, hit.front) && weight > 0.0) {
         if (kDirectLight == kDirectLightClosedForm) gatherClosedForm(gathered, hit, scattered, path.scatterings + 1u);
         if (kDirectLight == kDirectLightSampled) {
-            uint light = sampleDimension(path.scatterings, path.crossings, kDimensionLight);
+            uint light = sampleDimension(path.scatterings, path.crossings, kDimensionEmitter);
             connectToEmitter(shadow, gathered, hit, scattered, wo, drawWords(path.stream, light), path.scatterings + 1u);
         }
         float u = 0.0;
         if (kTransmittance != kTransmittanceZero && kPathsContinue) {
-            u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionChoice)).x;
+            u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionCrossing));
         }
         if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }

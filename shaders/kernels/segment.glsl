@@ -39,11 +39,11 @@ uvec2 drawWords(uvec2 stream, uint dimension) {
 vec2 drawPair(uvec2 stream, uint dimension) {
     return samplePair(kSampler, stream.x, stream.y, dimension, params.seed);
 }
-vec2 drawChoice(uvec2 stream, uint dimension) { return sampleChoice(stream.x, stream.y, dimension, params.seed); }
+float drawChoice(uvec2 stream, uint dimension) { return sampleChoice(stream.x, stream.y, dimension, params.seed).x; }
 
 // A direction in which a path leaves a vertex.
 BsdfSample scatter(Vertex vertex, vec3 wo, uvec2 stream, uint scatterings, uint mode) {
     vec2 u = drawPair(stream, sampleDimension(scatterings, 0u, kDimensionDirection));
-    float lobe = kOnlyDiffuse ? 0.0 : drawChoice(stream, sampleDimension(scatterings, 0u, kDimensionDirection)).x;
+    float lobe = kOnlyDiffuse ? 0.0 : drawChoice(stream, sampleDimension(scatterings, 0u, kDimensionLobe));
     return bsdfSample(vertex.bsdf, frameOf(vertex.point), wo, lobe, u, mode);
 }

@@ -6,20 +6,22 @@
 #include "shaders/lib/sobol.glsl"
 #include "shaders/shared/path_layout.h"
 
-// The purpose of a pair of numbers; vertex and purpose together are the dimension. The light tracer reuses two of the
-// values: for the direction from the emitter, and for connections to the camera. In the latter dimension at the
-// emitter, sampleWords chooses the point on the emitter, and sampleChoice gives the number of the connection and the
-// side.
-const uint kDimensionPixel = 0u;
-const uint kDimensionEmission = 0u;
-const uint kDimensionCamera = 1u;
-const uint kDimensionLight = 1u;
-const uint kDimensionDirection = 2u;
-const uint kDimensionChoice = 3u;
+// The purpose of a number or a pair of numbers. Scattering events, crossings and purpose together are the dimension,
+// which has room for more purposes (a lens, the wavelength).
+const uint kDimensionPixel = 0u;       // place in the pixel, and the film's rounding
+const uint kDimensionEmitter = 1u;     // point on an emitter
+const uint kDimensionDirection = 2u;   // scattered direction
+const uint kDimensionRoulette = 3u;    // whether a path continues
+const uint kDimensionCrossing = 4u;    // at which of the surfaces along a segment it does
+const uint kDimensionLobe = 5u;        // of the BSDF
+const uint kDimensionEmission = 6u;    // direction from the emitter
+const uint kDimensionSide = 7u;        // of the emitter
+const uint kDimensionConnection = 8u;  // whether a light path is connected to the camera, and the film's rounding
 
-// `scattering`: scattering events before the vertex; `crossing`: surfaces crossed since the last one.
+// `scattering`: scattering events before the vertex, fewer than 65536; `crossing`: surfaces crossed since the last one,
+// fewer than 4096.
 uint sampleDimension(uint scattering, uint crossing, uint purpose) {
-    return (scattering << 16u) + (crossing << 2u) + purpose;
+    return (scattering << 16u) + (crossing << 4u) + purpose;
 }
 
 // Two uniform words.

@@ -1,31 +1,28 @@
 // The samples of a path.
 #include "shaders/lib/sampler.glsl"
 
-// Vertices with fewer than 65536 scattering events and 16384 crossings, and four purposes, have distinct dimensions,
+// Vertices with fewer than 65536 scattering events and 4096 crossings, and 16 purposes, have distinct dimensions,
 // because all three numbers can be recovered from the dimension.
 void expectDimension(uint scattering, uint crossing, uint purpose) {
     uint dimension = sampleDimension(scattering, crossing, purpose);
-    EXPECT_EQ(uvec3(dimension >> 16u, (dimension >> 2u) & 0x3fffu, dimension & 3u),
+    EXPECT_EQ(uvec3(dimension >> 16u, (dimension >> 4u) & 0xfffu, dimension & 15u),
               uvec3(scattering, crossing, purpose));
 }
 
 TEST(DimensionsDoNotCollide) {
-    expectDimension(randomUint() >> 16u, randomUint() >> 18u, randomUint() >> 30u);
+    expectDimension(randomUint() >> 16u, randomUint() >> 20u, randomUint() >> 28u);
 }
 
 TEST_N(DimensionsDoNotCollideAtTheLimits, 8) {
     uint i = testIndex();
-    expectDimension((i & 1u) * 65535u, ((i >> 1u) & 1u) * 16383u, (i >> 2u) * 3u);
+    expectDimension((i & 1u) * 65535u, ((i >> 1u) & 1u) * 4095u, (i >> 2u) * 15u);
 }
 
-// Of the uses that one path makes of its vertices: a path from the camera, and one from a light.
 TEST_N(PurposesDiffer, 1) {
-    uint camera = (1u << kDimensionPixel) | (1u << kDimensionLight) | (1u << kDimensionDirection) |
-                  (1u << kDimensionChoice);
-    EXPECT_EQ(camera, 15u);
-    uint light = (1u << kDimensionEmission) | (1u << kDimensionCamera) | (1u << kDimensionDirection) |
-                 (1u << kDimensionChoice);
-    EXPECT_EQ(light, 15u);
+    uint purposes = (1u << kDimensionPixel) | (1u << kDimensionEmitter) | (1u << kDimensionDirection) |
+                    (1u << kDimensionRoulette) | (1u << kDimensionCrossing) | (1u << kDimensionLobe) |
+                    (1u << kDimensionEmission) | (1u << kDimensionSide) | (1u << kDimensionConnection);
+    EXPECT_EQ(purposes, 511u);
 }
 
 TEST(WordsAreThoseOfTheKind) {

@@ -29,22 +29,22 @@ struct Expected {
 };
 
 constexpr Expected kExpected[] = {
-    {"cornell", "local", 0x0eb83f64e9b4fe98, 0xa91b609c53284df9},
-    {"cornell", "global", 0xf00281b2d1e955ce, 0x07a8f2914ed395a9},
-    {"cornell", "shadowless", 0x9025f802a1a2bb78, 0x8b8e5380fa97c3dc},
-    {"cornell", "one-bounce", 0x5459c41beaeeae53, 0x9d200afc922acf00},
-    {"spot", "local", 0x9a9443cbc9accd12, 0xa682733ef4d36fee},
-    {"spot", "global", 0x700b41bfdd59c4ff, 0x0b859ae1a594bb3d},
-    {"spot", "shadowless", 0x75676fd0c50df808, 0xb792280ed476e65c},
-    {"spot", "one-bounce", 0xb1904a30e6276902, 0x4c96137eadc138b6},
-    {"uplight", "local", 0x5e4d9e26cfc36629, 0x573ad7224c3d5cae},
-    {"uplight", "global", 0xca833c46d8ccfa52, 0x7b8567a69606fa68},
-    {"uplight", "shadowless", 0xbba938013849fb17, 0x821a87e51f1f1f41},
-    {"uplight", "one-bounce", 0x30a055a029cdab66, 0x3218e47495a581cd},
-    {"two-spheres", "local", 0x0a94d2bba1704f33, 0x0fc080def2179c1b},
-    {"two-spheres", "global", 0x32e34d68daa1b7ff, 0x1eb618ddd447debb},
-    {"two-spheres", "shadowless", 0xa4954b41562b270d, 0x2fca06e8ff782546},
-    {"two-spheres", "one-bounce", 0xda066579f245f7c0, 0xc00f81ea971e37f3},
+    {"cornell", "local", 0x0eb83f64e9b4fe98, 0x139920d76d074adc},
+    {"cornell", "global", 0x3de835ae30340c59, 0x313a6a18a8f0ed63},
+    {"cornell", "shadowless", 0x12c73ac1c0faa1b7, 0x7e58356caf430fd3},
+    {"cornell", "one-bounce", 0x5459c41beaeeae53, 0xa59b13c9062862e1},
+    {"spot", "local", 0x9a9443cbc9accd12, 0xd2109fab75b4f73a},
+    {"spot", "global", 0x858169b5cb755526, 0x3f0b873036fc81fe},
+    {"spot", "shadowless", 0xe4429d42a9a46722, 0x3c4408ef42ee645f},
+    {"spot", "one-bounce", 0xb1904a30e6276902, 0xb2ca4cbb38ed595f},
+    {"uplight", "local", 0x5e4d9e26cfc36629, 0x451f18fefc103ee9},
+    {"uplight", "global", 0xad692ff7de5bca8c, 0x34f10c9bba64499a},
+    {"uplight", "shadowless", 0x295f1fe4fc0b3efc, 0xa8d0f025e3e19a9e},
+    {"uplight", "one-bounce", 0x30a055a029cdab66, 0x23914182f5dbdb0d},
+    {"two-spheres", "local", 0x0a94d2bba1704f33, 0xfac12c892dd69e88},
+    {"two-spheres", "global", 0xf1b2604555b53265, 0x338a2abdcdd981a4},
+    {"two-spheres", "shadowless", 0x2109b5bbe6b52105, 0x1aa98016caba9837},
+    {"two-spheres", "one-bounce", 0xda066579f245f7c0, 0x824fd5fa09e24e4f},
 };
 
 void PrintTo(const Expected& expected, std::ostream* out) {
