@@ -82,7 +82,7 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     float roulette = drawChoice(path.stream, dimension);
     // Written so that NaN is traced, and counted when it arrives.
     connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
-    connection.segment = leaveSurface(outgoing.point, camera.direction);
+    connection.segment = leaveVertex(outgoing.point, camera.direction);
     connection.distance = camera.distance;
     connection.light = arriving;
     connection.roulette = roulette;

@@ -1,5 +1,5 @@
-// Direct light at the vertices of the path tracer: next-event estimation by shadow rays or, where nothing can be in
-// between, at once; or the closed form.
+// Light from the emitters in the path tracer: emission that paths meet, and direct light at their vertices by next-event
+// estimation with shadow rays (without, where nothing can be in between) or in closed form.
 
 // A shadow ray in flight.
 struct Shadow {
@@ -14,6 +14,17 @@ struct Shadow {
 
 void gather(inout Gathered gathered, Light light, uint scatterings) {
     gather(gathered, light, scatterings, params.bounces, params.display);
+}
+
+// Collects what the surface emits; weighted, because direct light is sampled at vertices, too.
+void collectEmission(inout Gathered gathered, Path path, SurfaceHit hit, LightMatrix w, float t, uint rank) {
+    bool emits = rank < params.emittingTriangles;
+    Emitter emitter = fetchEmitter(emits ? rank : 0u);
+    float pdf = emitterPdf(emitter, t * t, hit.cosine);
+    float misWeight = path.scatterings > 0u ? balanceHeuristic(path.bsdfPdf, pdf) : 1.0;
+    if (kDirectLight == kDirectLightClosedForm) misWeight = path.scatterings > 0u ? 0.0 : 1.0;
+    Light collected = lightApply(w, emissionOn(emitter, hit.front));
+    if (emits) gather(gathered, lightScale(collected, vec3(misWeight)), path.scatterings);
 }
 
 // `importance`: W O at the vertex.
@@ -32,7 +43,7 @@ void connectToEmitter(inout Shadow shadow, inout Gathered gathered, SurfaceHit h
         if (contributes) gather(gathered, contribution, scatterings);
     } else if (contributes) {
         shadow.pending = true;
-        shadow.segment = leaveSurface(hit.point, light.wi);
+        shadow.segment = leaveVertex(hit.point, light.wi);
         shadow.distance = light.distance;
         shadow.beforeOrder = kNoTriangle;
         if (light.coincident != kNoTriangle) {

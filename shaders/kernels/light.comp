@@ -48,7 +48,7 @@ LightPath emitPath(uvec2 stream, out Outgoing outgoing) {
     path.stream = stream;
     path.flux = ray.flux;
     path.emitted = carried(ray.flux);
-    path.segment = leaveSurface(ray.point, ray.direction);
+    path.segment = leaveSurface(ray.point, ray.direction, false);
     path.scatterings = 0u;
     path.crossings = 0u;
     path.ended = !(path.emitted > 0.0) || params.bounces == 0u;
@@ -76,7 +76,7 @@ bool endSegment(inout LightPath path, inout Vertex vertex) {
 void beginSegment(inout LightPath path, Vertex vertex) {
     BsdfSample s = scatter(vertex, -path.segment.direction, path.stream, path.scatterings, kModeImportance);
     path.flux = lightScale(path.scattered, s.weight);
-    path.segment = leaveSurface(vertex.point, s.wi);
+    path.segment = leaveVertex(vertex.point, s.wi);
     path.scatterings += 1u;
     path.crossings = 0u;
     path.ended = !(s.pdf > 0.0);
@@ -134,7 +134,7 @@ Traversal nextRay(LightPath path, Connection connection, inout LaneSums sums) {
 void main() {
     Team team = teamOfLane(dispatch.teamPaths, dispatch.count, dispatch.firstTeam);
     if (team.items == 0u) return;
-    LaneSums sums = emptySums();
+    LaneSums sums = emptyLaneSums();
     Vertex vertex;
     vertex.weightSum = 0.0;
     Connection connection;

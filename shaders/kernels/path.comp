@@ -21,62 +21,12 @@ layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { PixelR
 layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
 
 #include "shaders/kernels/segment.glsl"
+#include "shaders/kernels/camera_path.glsl"
 #include "shaders/kernels/direct_light.glsl"
 #include "shaders/kernels/team.glsl"
 
 // Whether anything can be gathered after a scattering event. (Nothing in between means T without a second column.)
 const bool kPathsContinue = kDirectLight != kDirectLightClosedForm || kInvisibleScatters;
-
-// A path in flight.
-struct Path {
-    uvec2 stream;            // pixel and sample
-    LightMatrix importance;  // W on the segment, after all surfaces crossed so far
-    Segment segment;
-    float bsdfPdf;           // density of the segment's direction, per steradian
-    uint scatterings;        // events before the segment
-    uint crossings;          // on the segment
-    bool ended;
-    LightMatrix scattered;   // W O at the chosen vertex of the segment
-};
-
-Path cameraPath(uvec2 stream) {
-    uint width = params.camera.width;
-    vec2 corner = vec2(float(int(stream.x % width)), float(int(stream.x / width)));
-    CameraRay ray = cameraRay(params.camera, corner + drawPair(stream, kDimensionPixel));
-    Path path;
-    path.stream = stream;
-    path.importance = lightIdentity();
-    path.segment = Segment(ray.origin, ray.direction, 0.0, kNoTriangle);
-    path.bsdfPdf = 0.0;
-    path.scatterings = 0u;
-    path.crossings = 0u;
-    path.ended = false;
-    return path;
-}
-
-bool onCameraSegment(Path path) { return path.scatterings + path.crossings == 0u; }
-
-bool onlyEmissionLeft(Path path) {
-    return path.scatterings >= params.bounces || !canScatter(path.importance);
-}
-
-// Without the second column all importance is on the first, but for the visible row of the camera's own segment.
-LightMatrix importanceOf(Path path) {
-    if (kSecondColumn) return path.importance;
-    float atCamera = onCameraSegment(path) ? 1.0 : 0.0;
-    return LightMatrix(path.importance.m00, vec3(0.0), path.importance.m10, vec3(atCamera));
-}
-
-// Collects what the surface emits; weighted, because direct light is sampled at vertices, too.
-void collectEmission(inout Gathered gathered, Path path, SurfaceHit hit, LightMatrix w, float t, uint rank) {
-    bool emits = rank < params.emittingTriangles;
-    Emitter emitter = fetchEmitter(emits ? rank : 0u);
-    float pdf = emitterPdf(emitter, t * t, hit.cosine);
-    float misWeight = path.scatterings > 0u ? balanceHeuristic(path.bsdfPdf, pdf) : 1.0;
-    if (kDirectLight == kDirectLightClosedForm) misWeight = path.scatterings > 0u ? 0.0 : 1.0;
-    Light collected = lightApply(w, emissionOn(emitter, hit.front));
-    if (emits) gather(gathered, lightScale(collected, vec3(misWeight)), path.scatterings);
-}
 
 // The path continues from the chosen vertex of the segment, or ends.
 void endSegment(inout Path path, inout Vertex vertex) {
@@ -91,7 +41,7 @@ void endSegment(inout Path path, inout Vertex vertex) {
 
     BsdfSample s = scatter(vertex, -path.segment.direction, path.stream, path.scatterings, kModeRadiance);
     path.importance = lightScale(path.scattered, s.weight * (weightSum / (vertex.weight * survival)));
-    path.segment = leaveSurface(vertex.point, s.wi);
+    path.segment = leaveVertex(vertex.point, s.wi);
     path.bsdfPdf = s.pdf;
     path.scatterings += 1u;
     path.crossings = 0u;
@@ -168,7 +118,7 @@ void main() {
     if (team.items == 0u) return;
     uint taken = takeItem(team);
     uint endSample = dispatch.firstSample + dispatch.sampleCount;
-    PixelSums sums = emptySums();
+    PixelSums sums = emptyPixelSums();
     emptyLayers();
     Gathered gathered = nothingGathered();
     Vertex vertex;
@@ -225,7 +175,7 @@ void main() {
             storeLayers(dispatch.firstResult + team.begin + taken);
             finishItem(team);
             taken = takeItem(team);
-            sums = emptySums();
+            sums = emptyPixelSums();
             emptyLayers();
             path = cameraPath(uvec2(pixelInOrder(itemOf(team, taken)), dispatch.firstSample));
             ray = cameraRayOf(path);

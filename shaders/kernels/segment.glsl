@@ -41,6 +41,16 @@ vec2 drawPair(uvec2 stream, uint dimension) {
 }
 float drawChoice(uvec2 stream, uint dimension) { return sampleChoice(stream.x, stream.y, dimension, params.seed).x; }
 
+// Without smooth normals a vertex need not keep both normals.
+BsdfFrame frameOf(SurfacePoint point) {
+    return BsdfFrame(kSmoothNormals ? point.shadingNormal : point.geometricNormal, point.geometricNormal);
+}
+
+// A ray that leaves a point at which the BSDF scatters.
+Segment leaveVertex(SurfacePoint point, vec3 direction) {
+    return leaveSurface(point, direction, kTransmits && dot(point.geometricNormal, direction) < 0.0);
+}
+
 // A direction in which a path leaves a vertex.
 BsdfSample scatter(Vertex vertex, vec3 wo, uvec2 stream, uint scatterings, uint mode) {
     vec2 u = drawPair(stream, sampleDimension(scatterings, 0u, kDimensionDirection));

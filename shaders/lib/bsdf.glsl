@@ -10,6 +10,7 @@
 layout(constant_id = kSpecLobes) const uint kLobes = 3u;
 
 const bool kOnlyDiffuse = kLobes == kLobeDiffuse;
+const bool kTransmits = (kLobes & kLobesThatTransmit) != 0u;
 
 // f, per steradian.
 vec3 bsdfEvaluate(Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {

@@ -8,6 +8,11 @@
 
 layout(constant_id = kSpecCamera) const uint kCamera = 0u;
 
+// The top left corner of the pixel with this number, in pixels from the top left corner of the image.
+vec2 pixelCorner(DeviceCamera camera, uint pixel) {
+    return vec2(float(int(pixel % camera.width)), float(int(pixel / camera.width)));
+}
+
 // `pixel`: point of the image, in pixels from the top left corner.
 CameraRay cameraRay(DeviceCamera camera, vec2 pixel) {
     if (kCamera == kCameraOrthographic) return orthographicRay(camera, pixel);

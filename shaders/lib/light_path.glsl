@@ -51,7 +51,7 @@ struct LaneSums {
     uvec2 visible;
 };
 
-LaneSums emptySums() { return LaneSums(0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u)); }
+LaneSums emptyLaneSums() { return LaneSums(0u, 0u, 0u, 0u, 0u, uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u)); }
 
 LaneResult laneResult(LaneSums sums) {
     return LaneResult(sums.nonFinite, sums.clamped, sums.lightRays, sums.bounceRays, sums.shadowRays,

@@ -39,7 +39,7 @@ struct PixelSums {
     float previousBounce;
 };
 
-PixelSums emptySums() { return PixelSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
+PixelSums emptyPixelSums() { return PixelSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
 
 void addSample(inout PixelSums sums, Gathered gathered, float inverseQuantum, FilmRounding u) {
     vec3 total = gathered.light.invisible + gathered.light.visible;

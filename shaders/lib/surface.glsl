@@ -57,10 +57,9 @@ struct Segment {
     uint order;
 };
 
-// A ray that leaves a surface, on the side of the point's normals or on the other side. Coincident surfaces that lie on
-// its side are still to be crossed.
-Segment leaveSurface(SurfacePoint point, vec3 direction) {
-    bool through = dot(point.geometricNormal, direction) < 0.0;
+// A ray that leaves a surface on the side of the point's normals or, `through` the surface, on the other side. Coincident
+// surfaces that lie on its side are still to be crossed.
+Segment leaveSurface(SurfacePoint point, vec3 direction, bool through) {
     vec3 origin = through ? point.position - 2.0 * point.offset * point.geometricNormal : point.position;
     Segment segment = Segment(origin, direction, 0.0, kNoTriangle);
     if (kPlanes && (through || point.behindOthers != 0u)) {

@@ -13,8 +13,6 @@ struct Vertex {
     float weightSum;  // of all vertices of the segment
 };
 
-BsdfFrame frameOf(SurfacePoint point) { return BsdfFrame(point.shadingNormal, point.geometricNormal); }
-
 // A further vertex with this weight, which is above 0, and a uniform number `u`. True: it becomes the chosen one.
 bool offerVertex(inout Vertex vertex, Bsdf bsdf, SurfacePoint point, float weight, float u) {
     float weightSum = vertex.weightSum + weight;

@@ -13,7 +13,7 @@
 #ifndef DUOLUX_SHADERS_SHARED_BVH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_BVH_LAYOUT_H
 
-#include "shaders/shared/types.h"
+#include "shaders/shared/kernel_interface.h"
 
 DUOLUX_BEGIN
 
@@ -30,9 +30,6 @@ DUOLUX_CONST uint kMaxLeafPairs = 3u;
 // number of pairs in unary in the three high bits, and in the low five the offset of the first pair from
 // WideNode.pairBase.
 DUOLUX_CONST uint kMetaInner = 0x20u;
-
-// Specialisation constant of all kernels that traverse the tree: lanes of a subgroup of 8 vote by shuffles.
-DUOLUX_CONST uint kSpecVoteByShuffle = 18u;
 
 // Instance masks of the driver's acceleration structure, which replaces the nodes with Layout::kRayQuery: all
 // triangles, and the copies of the emitting ones that follow them.
@@ -68,9 +65,7 @@ struct DevicePair {
 static_assert(sizeof(DevicePair) == kPairTexels * 16);
 #endif
 
-// Texels: the plane of each triangle if kSpecPlanes is true: unit normal on the front side, dot(normal, x).
-DUOLUX_CONST uint kBindingPlanes = 10u;
-DUOLUX_CONST uint kSpecPlanes = 19u;
+// The plane of a triangle (kBindingPlanes) is a texel: unit normal on the front side, dot(normal, x).
 
 DUOLUX_CONST uint kMaterialMask = 0x7fffffffu;
 DUOLUX_CONST uint kTriangleSmooth = 0x80000000u;  // has shading normals

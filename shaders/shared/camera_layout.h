@@ -2,13 +2,11 @@
 #ifndef DUOLUX_SHADERS_SHARED_CAMERA_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_CAMERA_LAYOUT_H
 
-#include "shaders/shared/types.h"
+#include "shaders/shared/kernel_interface.h"
 
 DUOLUX_BEGIN
 
-// Specialisation constant: one of the kCamera... below.
-DUOLUX_CONST uint kSpecCamera = 20u;
-
+// Kinds of cameras.
 DUOLUX_CONST uint kCameraPerspective = 0u;
 DUOLUX_CONST uint kCameraOrthographic = 1u;
 

@@ -1,10 +1,10 @@
-// The record of an emitter, shared by C++ and GLSL. The emitting triangles of a scene come first, in the order of their
-// ranks (DevicePair::primitive), so that the rank of an emitting triangle is the index of its record. Point emitters
-// follow.
+// The record of an emitter, shared by C++ and GLSL. The emitting triangles of a scene come first, in the
+// order of their ranks (DevicePair::primitive), so that the rank of an emitting triangle is the index of its
+// record. Point emitters follow.
 #ifndef DUOLUX_SHADERS_SHARED_EMITTER_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_EMITTER_LAYOUT_H
 
-#include "shaders/shared/types.h"
+#include "shaders/shared/kernel_interface.h"
 
 DUOLUX_BEGIN
 
@@ -16,8 +16,7 @@ DUOLUX_CONST uint kEmitterBack = 2u;        // emits on the back side
 DUOLUX_CONST uint kEmitterCoincident = 4u;  // other surfaces coincide with the triangle, kSpecPlanes only
 DUOLUX_CONST uint kEmitterPoint = 8u;       // not a triangle, but a point
 
-// Specialisation constant: the sum of the kinds of emitters in the scene.
-DUOLUX_CONST uint kSpecEmitterKinds = 24u;
+// Kinds of emitters.
 DUOLUX_CONST uint kEmitterKindTriangle = 1u;
 DUOLUX_CONST uint kEmitterKindPoint = 2u;
 

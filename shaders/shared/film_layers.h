@@ -7,7 +7,7 @@
 #ifndef DUOLUX_SHADERS_SHARED_FILM_LAYERS_H
 #define DUOLUX_SHADERS_SHARED_FILM_LAYERS_H
 
-#include "shaders/shared/types.h"
+#include "shaders/shared/kernel_interface.h"
 
 // LAYER(id, Id, index, channels, count, lowest, largest): `id` is the layer's name on the command line, in
 // files and in kernels (layers.id), `Id` the same in constants (kLayerId); `index` is its place in the list;
@@ -23,12 +23,8 @@ DUOLUX_BEGIN
 // |lowest| and |largest|. The sum of 2^32 samples, more than a pixel can have, then fits into 63 bits.
 DUOLUX_CONST float kLayerQuanta = 1073741824.0f;
 
-// Storage: the sums of the layers of each pixel of a dispatch, one channel after the other, as 64-bit two's
-// complement numbers.
-DUOLUX_CONST uint kBindingLayers = 11u;
-
-// The layers to accumulate: bit i stands for the layer with index i.
-DUOLUX_CONST uint kSpecFilmLayers = 22u;
+// The sums of the layers of each pixel of a dispatch (kBindingLayers) are 64-bit two's complement numbers,
+// one channel after the other.
 
 DUOLUX_END
 #endif

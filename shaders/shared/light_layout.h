@@ -1,6 +1,5 @@
-// Bindings and records of the light tracer's kernel, in addition to those of path_layout.h, shared by C++ and
-// GLSL (scalar block layout). It also uses the bindings 0 to 5, kBindingResults (LaneResult) and
-// kBindingTeams.
+// Records of the light tracer's kernel, in addition to those of path_layout.h, shared by C++ and GLSL (scalar
+// block layout).
 #ifndef DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
 
@@ -8,17 +7,12 @@
 
 DUOLUX_BEGIN
 
-// Storage: the sums of the film, an array of buffers. Each buffer holds a band of pixels, because devices
-// limit the size of a buffer. A pixel has six 64-bit sums in quanta: invisible r, g, b, visible r, g, b.
-DUOLUX_CONST uint kBindingFilm = 9u;
+// The sums of the film (kBindingFilm) are in an array of buffers. Each buffer holds a band of pixels, because
+// devices limit the size of a buffer. A pixel has six 64-bit sums in quanta: invisible r, g, b, visible r, g,
+// b.
 DUOLUX_CONST uint kMaxFilmBands = 8u;
 DUOLUX_CONST uint kFilmSums = 6u;
 DUOLUX_CONST float kStatisticsQuanta = 4096.0f;
-
-// One of the kTransmittance... constants: the effect of surfaces on a connection to the camera.
-DUOLUX_CONST uint kSpecCameraTransmittance = 15u;
-DUOLUX_CONST uint kSpecFilmBands = 16u;
-DUOLUX_CONST uint kSpecBandPixels = 17u;  // pixels of each band but the last
 
 // A range of light paths. Each path has a unique 64-bit number (low, high).
 struct LightDispatch {

@@ -2,7 +2,7 @@
 #ifndef DUOLUX_SHADERS_SHARED_MATERIAL_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_MATERIAL_LAYOUT_H
 
-#include "shaders/shared/types.h"
+#include "shaders/shared/kernel_interface.h"
 
 DUOLUX_BEGIN
 
@@ -10,10 +10,10 @@ DUOLUX_CONST uint kMaterialTexels = 10u;  // of 4 x uint32
 
 DUOLUX_CONST uint kMaterialTwoSided = 1u;  // f_opaque acts on both sides
 
-// Specialisation constant: the sum of the lobes that the materials of a scene have.
-DUOLUX_CONST uint kSpecLobes = 21u;
+// Lobes.
 DUOLUX_CONST uint kLobeDiffuse = 1u;
 DUOLUX_CONST uint kLobeConductor = 2u;
+DUOLUX_CONST uint kLobesThatTransmit = 0u;  // scatter to the other side of the surface, too
 
 // Metals whose GGX alpha (the square of the roughness) is below this are mirrors.
 DUOLUX_CONST float kSmoothAlpha = 1e-3f;

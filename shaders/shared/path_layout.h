@@ -1,10 +1,11 @@
-// Parameters, bindings and records of the path tracer's kernel, in part also used by the light tracer's,
+// Parameters and records of the path tracer's kernel, in part also used by the light tracer's,
 // shared by C++ and GLSL (scalar block layout).
 #ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
 
 #include "shaders/shared/camera_layout.h"
 #include "shaders/shared/emitter_layout.h"
+#include "shaders/shared/kernel_interface.h"
 #include "shaders/shared/material_layout.h"
 #include "shaders/shared/types.h"
 
@@ -12,38 +13,6 @@ DUOLUX_BEGIN
 
 // The largest value of one sample of a pixel, and of the mean of a pixel, in quanta of the film: 2^58.
 DUOLUX_CONST float kFilmLargest = 288230376151711744.0f;
-
-// Descriptor bindings, all in set 0.
-DUOLUX_CONST uint kBindingNodes = 0u;      // WideNode as texels or storage, or acceleration structure
-DUOLUX_CONST uint kBindingTriangles = 1u;  // DevicePair as texels or storage
-DUOLUX_CONST uint kBindingNormals = 2u;    // texels: DeviceNormals
-DUOLUX_CONST uint kBindingMaterials = 3u;  // texels: DeviceMaterial
-DUOLUX_CONST uint kBindingEmitters = 4u;   // texels: DeviceEmitter
-DUOLUX_CONST uint kBindingParams = 5u;     // uniform: PathParams
-DUOLUX_CONST uint kBindingPixels = 6u;     // texels: the indices of four pixels each, in the order of tracing
-DUOLUX_CONST uint kBindingResults = 7u;    // storage: PixelResult
-DUOLUX_CONST uint kBindingTeams = 8u;      // storage: TeamProgress, all zero before a dispatch
-DUOLUX_CONST uint kBindingColours = 12u;   // texels: DeviceColours, kSpecVertexColours only
-
-// Specialisation constants.
-DUOLUX_CONST uint kSpecWorkgroupSize = 0u;
-DUOLUX_CONST uint kSpecLeaveTraversal = 1u;  // leave the traversal when fewer lanes of a subgroup are alive
-DUOLUX_CONST uint kSpecLeaveNodes = 2u;      // leave the node loop when fewer lanes want nodes
-DUOLUX_CONST uint kSpecTransmittance = 3u;   // one of the kTransmittance... below
-DUOLUX_CONST uint kSpecSecondColumn =
-    4u;  // some O or T has an entry m01 or m11: visible light scatters or is transmitted
-DUOLUX_CONST uint kSpecInvisibleScatters =
-    5u;  // some O has m00 or m01: importance for invisible light scatters
-DUOLUX_CONST uint kSpecVisibleScatters = 6u;   // some O has m10 or m11
-DUOLUX_CONST uint kSpecInvisibleCrosses = 7u;  // some T has m00 or m01
-DUOLUX_CONST uint kSpecVisibleCrosses = 8u;    // some T has m10 or m11
-DUOLUX_CONST uint kSpecOneReflectance = 9u;    // all materials share PathParams.opaque and .transparent
-DUOLUX_CONST uint kSpecSmoothNormals = 10u;
-DUOLUX_CONST uint kSpecSampler = 11u;      // one of the kSampler... below
-DUOLUX_CONST uint kSpecDirectLight = 12u;  // one of the kDirectLight... below
-DUOLUX_CONST uint kSpecHasEmitters = 13u;  // something emits
-DUOLUX_CONST uint kSpecTeamSize = 14u;     // lanes that share a range of pixels; divides the workgroup's size
-DUOLUX_CONST uint kSpecVertexColours = 23u;  // colours of vertices scale those of materials
 
 DUOLUX_CONST uint kSamplerSobol = 0u;  // Owen-scrambled Sobol points
 DUOLUX_CONST uint kSamplerIndependent = 1u;

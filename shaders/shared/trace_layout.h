@@ -1,18 +1,10 @@
-// Bindings and records of the kernel that only traces given rays, shared by C++ and GLSL (scalar block
-// layout). It also uses kBindingNodes, kBindingTriangles and the specialisation constants 0 to 2 of
-// path_layout.h.
+// Records of the kernel that only traces given rays, shared by C++ and GLSL (scalar block layout).
 #ifndef DUOLUX_SHADERS_SHARED_TRACE_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_TRACE_LAYOUT_H
 
 #include "shaders/shared/path_layout.h"
 
 DUOLUX_BEGIN
-
-DUOLUX_CONST uint kBindingRays = 2u;  // texels: TraceRay, two texels each
-DUOLUX_CONST uint kBindingHits = 3u;  // storage: TraceHit
-
-DUOLUX_CONST uint kSpecTraceMode = 3u;  // one of the kTrace... below
-DUOLUX_CONST uint kSpecCount = 4u;      // count visits and tests, which makes the traversal slower
 
 DUOLUX_CONST uint kTraceNearest = 0u;
 DUOLUX_CONST uint kTraceAnyHit = 1u;

@@ -36,6 +36,12 @@ TEST(RaysThroughTheCornersSpanTheImagePlane) {
     EXPECT_NEAR(onPlane, expected, 4e-6 * dot(expected, expected));
 }
 
+TEST(PixelsAreNumberedRowByRow) {
+    DeviceCamera camera = randomCamera();
+    uvec2 place = uvec2(randomUint() % camera.width, randomUint() % camera.height);
+    EXPECT_EQ(pixelCorner(camera, place.y * camera.width + place.x), vec2(place));
+}
+
 TEST(RayThroughTheCentreGoesForward) {
     DeviceCamera camera = randomCamera();
     EXPECT_NEAR(cameraDirection(camera, 0.5 * imageSize(camera)), camera.forward, 4e-7);

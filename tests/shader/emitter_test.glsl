@@ -140,7 +140,7 @@ TEST(PointEmitterSendsItsPower) {
     EmittedRay ray = emitFromPoint(emitter, randomVec2());
     EXPECT_NEAR(length(ray.direction), 1.0, 3e-7);
     EXPECT_NEAR(ray.flux.invisible, vec3(1.0, 2.0, 3.0) * (4.0 * 3.14159265 / 0.25), 1e-4);
-    EXPECT_EQ(leaveSurface(ray.point, ray.direction).origin, emitter.v0);
+    EXPECT_EQ(leaveSurface(ray.point, ray.direction, false).origin, emitter.v0);
     EmitterSeen seen = seeEmitter(emitter, pointOnEmitter(emitter, randomVec2()), randomDirection());
     EXPECT_EQ(seen.intensity.visible, vec3(0.0));
 }

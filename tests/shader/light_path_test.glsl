@@ -6,7 +6,7 @@ uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
 
 TEST_N(SumsAreEmptyAtFirst, 1) {
-    LaneSums sums = emptySums();
+    LaneSums sums = emptyLaneSums();
     EXPECT_EQ(sums.nonFinite | sums.clamped | sums.lightRays | sums.bounceRays | sums.shadowRays, 0u);
     EXPECT_EQ(sums.lastBounce | sums.previousBounce | sums.invisible | sums.visible, uvec2(0u));
 }

@@ -9,7 +9,7 @@
 // values.
 
 DUOLUX_GLSL_TYPE(duolux::mirror::single::Array<6>, "uint[6]", "");
-DUOLUX_GLSL_TYPE(duolux::mirror::single::light_path::LaneSums, "LaneSums", "");
+DUOLUX_GLSL_TYPE(duolux::mirror::single::LaneSums, "LaneSums", "");
 
 namespace duolux::test {
 namespace {
@@ -106,15 +106,15 @@ TEST_F(PixelSumsOracles, Results) {
     }
     EXPECT_ORACLES(pixelSums(), words, kExact, filmSums);
     EXPECT_ORACLES(pixelSums(), pixelResult, kExact, all);
-    EXPECT_EQ(numbers(pixelSums().call<PixelSums>("emptySums")[0]), numbers(mirror::single::emptySums()));
+    EXPECT_EQ(numbers(pixelSums().call<PixelSums>("emptyPixelSums")[0]), numbers(mirror::single::emptyPixelSums()));
 }
 
 TEST(LightPathOracles, LaneResult) {
-    using mirror::single::light_path::LaneSums;
+    using mirror::single::LaneSums;
     ShaderLibrary library("shaders/lib/light_path.glsl");
     for (const char* name : {"Normal", "Plane", "Pair", "Light"})
         library.define("uvec4 fetch" + std::string(name) + "Texel(uint index) { return uvec4(0u); }");
-    const std::vector<LaneSums> sums{library.call<LaneSums>("emptySums")[0],
+    const std::vector<LaneSums> sums{library.call<LaneSums>("emptyLaneSums")[0],
                                      {1, 2, 3, 4, 5, {6, 7}, {8, 9}, {10, 11}, {12, 13}},
                                      {0xfffffff1,
                                       0xfffffff2,
@@ -127,9 +127,9 @@ TEST(LightPathOracles, LaneResult) {
                                       {12, 0x80000000}}};
     const auto results = library.call<mirror::single::LaneResult>("laneResult", sums);
     EXPECT_EQ(numbers(results[0]),
-              numbers(mirror::single::light_path::laneResult(mirror::single::light_path::emptySums())));
+              numbers(mirror::single::laneResult(mirror::single::emptyLaneSums())));
     for (std::size_t i = 0; i < sums.size(); ++i)
-        EXPECT_EQ(numbers(results[i]), numbers(mirror::single::light_path::laneResult(sums[i])));
+        EXPECT_EQ(numbers(results[i]), numbers(mirror::single::laneResult(sums[i])));
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST_N(BrightSamplesAreClampedAndCounted, 1) {
 }
 
 TEST_N(SumsAreEmptyAtFirst, 1) {
-    PixelResult result = pixelResult(emptySums());
+    PixelResult result = pixelResult(emptyPixelSums());
     uint all = 0u;
     for (int i = 0; i < 6; i++) all |= result.invisible[i] | result.visible[i];
     all |= result.nonFinite | result.clamped | result.cameraRays | result.bounceRays | result.shadowRays;

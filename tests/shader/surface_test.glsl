@@ -175,7 +175,7 @@ TEST(WithoutPlanesNothingIsMoved) {
     SurfacePoint placed = placedByPlane(point, randomVec3(-1.0, 1.0), true);
     EXPECT_EQ(placed.position, point.position);
     vec3 direction = randomDirection();
-    Segment segment = leaveSurface(placed, direction);
+    Segment segment = leaveSurface(placed, direction, false);
     EXPECT_EQ(segment.origin, point.position);
     EXPECT_EQ(segment.direction, direction);
     EXPECT_EQ(segment.t, 0.0);
@@ -191,5 +191,5 @@ TEST(RayLeavesOnItsOwnSide) {
     vec3 direction = randomDirection();
     float side = dot(point.geometricNormal, direction) < 0.0 ? -1.0 : 1.0;
     vec3 expected = pointOnTriangle(tri, b) + side * pointError(tri) * point.geometricNormal;
-    EXPECT_NEAR(leaveSurface(point, direction).origin, expected, 2e-7);
+    EXPECT_NEAR(leaveSurface(point, direction, side < 0.0).origin, expected, 2e-7);
 }

@@ -1,0 +1,40 @@
+// Paths from the camera.
+
+// A path in flight.
+struct Path {
+    uvec2 stream;            // pixel and sample
+    LightMatrix importance;  // W on the segment, after all surfaces crossed so far
+    Segment segment;
+    float bsdfPdf;           // density of the segment's direction, per steradian
+    uint scatterings;        // events before the segment
+    uint crossings;          // on the segment
+    bool ended;
+    LightMatrix scattered;   // W O at the chosen vertex of the segment
+};
+
+Path cameraPath(uvec2 stream) {
+    vec2 corner = pixelCorner(params.camera, stream.x);
+    CameraRay ray = cameraRay(params.camera, corner + drawPair(stream, kDimensionPixel));
+    Path path;
+    path.stream = stream;
+    path.importance = lightIdentity();
+    path.segment = Segment(ray.origin, ray.direction, 0.0, kNoTriangle);
+    path.bsdfPdf = 0.0;
+    path.scatterings = 0u;
+    path.crossings = 0u;
+    path.ended = false;
+    return path;
+}
+
+bool onCameraSegment(Path path) { return path.scatterings + path.crossings == 0u; }
+
+bool onlyEmissionLeft(Path path) {
+    return path.scatterings >= params.bounces || !canScatter(path.importance);
+}
+
+// Without the second column all importance is on the first, but for the visible row of the camera's own segment.
+LightMatrix importanceOf(Path path) {
+    if (kSecondColumn) return path.importance;
+    float atCamera = onCameraSegment(path) ? 1.0 : 0.0;
+    return LightMatrix(path.importance.m00, vec3(0.0), path.importance.m10, vec3(atCamera));
+}
