@@ -17,9 +17,9 @@
 #include "host/app/tuning_options.h"
 #include "host/base/error.h"
 #include "host/base/temporary_folder.h"
-#include "host/bench/bench_report.h"
-#include "host/bench/builtin_scenes.h"
-#include "host/bench/suite.h"
+#include "host/tools/bench/bench_report.h"
+#include "host/tools/bench/builtin_scenes.h"
+#include "host/tools/bench/suite.h"
 
 namespace duolux {
 

@@ -1,4 +1,4 @@
-#include "host/compare/compare.h"
+#include "host/tools/compare/compare.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 #include "host/base/error.h"
 #include "host/base/nearest_name.h"
 #include "host/base/version.h"
-#include "host/compare/heat_map.h"
+#include "host/tools/compare/heat_map.h"
 
 namespace duolux {
 

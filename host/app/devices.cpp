@@ -7,7 +7,7 @@
 #include "host/app/commands.h"
 #include "host/app/machine_options.h"
 #include "host/base/error.h"
-#include "host/gpu/json.h"
+#include "host/device_scene/json.h"
 #include "host/vk/device_info.h"
 #include "shaders/shared/bvh_layout.h"
 

@@ -24,7 +24,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/printable.h"
-#include "host/gpu/transport.h"
+#include "host/device_scene/transport.h"
 #include "host/loaders/scene_file.h"
 #include "host/view/load.h"
 #include "shaders/shared/material_layout.h"

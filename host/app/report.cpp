@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/version.h"
-#include "host/gpu/json.h"
+#include "host/device_scene/json.h"
 #include "host/scene/hash.h"
 
 namespace duolux {

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "host/gpu/tuning.h"
+#include "host/device_scene/tuning.h"
 
 namespace duolux {
 

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "host/gpu/device_scene.h"
+#include "host/device_scene/device_scene.h"
 #include "host/render/kernel_setup.h"
 #include "host/render/render.h"
 

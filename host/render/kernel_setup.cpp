@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/gpu/device_camera.h"
+#include "host/device_scene/device_camera.h"
 #include "shaders/shared/bvh_layout.h"
 
 namespace duolux {

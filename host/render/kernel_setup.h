@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "host/gpu/device_scene.h"
+#include "host/device_scene/device_scene.h"
 #include "host/scene/scene.h"
 #include "host/vk/device.h"
 #include "host/vk/kernel.h"

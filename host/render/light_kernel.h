@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "host/device_scene/device_scene.h"
 #include "host/film/film.h"
-#include "host/gpu/device_scene.h"
 #include "host/render/kernel_setup.h"
 #include "host/render/teams.h"
 #include "host/scene/scene.h"

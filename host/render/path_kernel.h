@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "host/device_scene/device_scene.h"
 #include "host/film/film.h"
-#include "host/gpu/device_scene.h"
 #include "host/render/film_quantum.h"
 #include "host/render/kernel_setup.h"
 #include "host/render/schedule.h"

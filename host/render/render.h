@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/device_scene/tuning.h"
 #include "host/film/film.h"
-#include "host/gpu/tuning.h"
 #include "host/scene/scene.h"
 #include "host/vk/device.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "host/gpu/device_scene.h"
+#include "host/device_scene/device_scene.h"
 #include "host/render/render.h"
 #include "host/scene/scene.h"
 

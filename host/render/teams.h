@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "host/gpu/tuning.h"
+#include "host/device_scene/tuning.h"
 #include "host/vk/buffer.h"
 #include "host/vk/commands.h"
 #include "host/vk/device.h"

@@ -1,4 +1,4 @@
-#include "host/bench/bench_report.h"
+#include "host/tools/bench/bench_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

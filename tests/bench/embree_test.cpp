@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "host/base/temporary_folder.h"
-#include "host/bench/builtin_scenes.h"
-#include "host/bench/ray_sets.h"
-#include "host/bench/trace_kernel.h"
-#include "host/peers/embree_path_tracer.h"
-#include "host/peers/embree_scene.h"
 #include "host/scene/emitters.h"
+#include "host/tools/bench/builtin_scenes.h"
+#include "host/tools/bench/ray_sets.h"
+#include "host/tools/bench/trace_kernel.h"
+#include "host/tools/peers/embree_path_tracer.h"
+#include "host/tools/peers/embree_scene.h"
 #include "host/view/load.h"
 #include "tests/reference/tracer.h"
 #include "tests/support/agreement.h"

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 
-readonly kPeers=${1:-build/release/host/peers/duolux-peers}
+readonly kPeers=${1:-build/release/host/tools/peers/duolux-peers}
 readonly kRuns=9
 
 [[ -x $kPeers ]] || {

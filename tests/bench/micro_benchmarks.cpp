@@ -6,11 +6,11 @@
 #include <numeric>
 
 #include "host/base/temporary_folder.h"
-#include "host/bench/builtin_scenes.h"
 #include "host/bvh/binary_bvh.h"
 #include "host/bvh/collapse.h"
 #include "host/bvh/wide_bvh.h"
 #include "host/film/film.h"
+#include "host/tools/bench/builtin_scenes.h"
 #include "host/view/load.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "host/bench/ray_sets.h"
+#include "host/tools/bench/ray_sets.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "host/base/temporary_folder.h"
-#include "host/bench/builtin_scenes.h"
-#include "host/bench/trace_kernel.h"
 #include "host/scene/hash.h"
+#include "host/tools/bench/builtin_scenes.h"
+#include "host/tools/bench/trace_kernel.h"
 #include "host/view/load.h"
 #include "tests/reference/triangles.h"
 #include "tests/support/device.h"

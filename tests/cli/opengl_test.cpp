@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/compare/compare.h"
 #include "host/film/image.h"
+#include "host/tools/compare/compare.h"
 #include "tests/cli/run_duolux.h"
 
 namespace duolux::test {

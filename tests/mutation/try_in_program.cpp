@@ -19,7 +19,7 @@ using std::chrono::seconds;
 using std::chrono::steady_clock;
 
 /// The fast ones first.
-constexpr const char* kTests[] = {"film_test", "gpu_test", "statistical_test"};
+constexpr const char* kTests[] = {"film_test", "render_test", "statistical_test"};
 
 /// All files except hidden ones and build output, relative to the root.
 std::set<fs::path> sourcesIn(const fs::path& root) {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "host/gpu/device_camera.h"
+#include "host/device_scene/device_camera.h"
 #include "host/scene/image_plane.h"
 #include "tests/reference/pinhole.h"
 #include "tests/shader/harness/census.h"

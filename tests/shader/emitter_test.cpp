@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "host/gpu/emitter_table.h"
+#include "host/device_scene/emitter_table.h"
 #include "host/scene/emitters.h"
 #include "tests/shader/density.h"
 #include "tests/shader/mirror_types.h"

@@ -106,7 +106,8 @@ TEST_F(PixelSumsOracles, Results) {
     }
     EXPECT_ORACLES(pixelSums(), words, kExact, filmSums);
     EXPECT_ORACLES(pixelSums(), pixelResult, kExact, all);
-    EXPECT_EQ(numbers(pixelSums().call<PixelSums>("emptyPixelSums")[0]), numbers(mirror::single::emptyPixelSums()));
+    EXPECT_EQ(numbers(pixelSums().call<PixelSums>("emptyPixelSums")[0]),
+              numbers(mirror::single::emptyPixelSums()));
 }
 
 TEST(LightPathOracles, LaneResult) {
@@ -126,8 +127,7 @@ TEST(LightPathOracles, LaneResult) {
                                       {10, 0xffffffff},
                                       {12, 0x80000000}}};
     const auto results = library.call<mirror::single::LaneResult>("laneResult", sums);
-    EXPECT_EQ(numbers(results[0]),
-              numbers(mirror::single::laneResult(mirror::single::emptyLaneSums())));
+    EXPECT_EQ(numbers(results[0]), numbers(mirror::single::laneResult(mirror::single::emptyLaneSums())));
     for (std::size_t i = 0; i < sums.size(); ++i)
         EXPECT_EQ(numbers(results[i]), numbers(mirror::single::laneResult(sums[i])));
 }

@@ -182,7 +182,8 @@ TEST(Surface, WithPlanesPointsAreAsExactAsTheirOwnSize) {
             library.evaluate<SurfacePoint>("result = placedByPlane(x0, x1, x2 != 0u);", points, at,
                                            std::vector<std::uint32_t>(at.size(), behind));
         const auto begins = library.evaluate<glm::vec4>(
-            "Segment b = leaveSurface(x0, x0.geometricNormal, false); result = vec4(b.t, uintBitsToFloat(b.order & "
+            "Segment b = leaveSurface(x0, x0.geometricNormal, false); result = vec4(b.t, "
+            "uintBitsToFloat(b.order & "
             "0xffffu), b.order == kNoTriangle ? 1.0 : 0.0, (b.order >> 31u) == 1u ? 1.0 : 0.0);",
             placed);
         for (std::size_t i = 0; i < at.size(); ++i) {

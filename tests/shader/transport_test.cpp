@@ -1,4 +1,4 @@
-#include "host/gpu/transport.h"
+#include "host/device_scene/transport.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/tuning.h"
+#include "host/device_scene/tuning.h"
 
 namespace duolux::test {
 

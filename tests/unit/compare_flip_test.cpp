@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "host/compare/flip.h"
+#include "host/tools/compare/flip.h"
 
 // FLIP against values that follow from published CIELAB coordinates, invariants, and a direct evaluation of
 // the paper's two-dimensional filters at single pixels.

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "host/base/srgb.h"
-#include "host/compare/compare.h"
-#include "host/compare/heat_map.h"
+#include "host/tools/compare/compare.h"
+#include "host/tools/compare/heat_map.h"
 
 // Every metric against values calculated by hand.
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
-#include "host/gl/point_lights.h"
+#include "host/tools/gl/point_lights.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/scene_builder.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host/gl/vertices.h"
-#include "host/gl/view.h"
+#include "host/tools/gl/vertices.h"
+#include "host/tools/gl/view.h"
 #include "tests/reference/pinhole.h"
 #include "tests/support/scene_builder.h"
 

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host/bvh/wide_bvh.h"
+#include "host/device_scene/transport.h"
+#include "host/device_scene/tuning.h"
+#include "host/scene/scene.h"
+#include "host/vk/acceleration_structure.h"
+#include "host/vk/buffer.h"
+#include "host/vk/device.h"
+#include "host/vk/kernel.h"
+
+namespace duolux {
+
+/// Scenes with more emitters use next-event estimation instead of the closed form.
+inline constexpr std::size_t kMostClosedFormEmitters = 16;
+
+/// A scene in device memory, in the records of shaders/shared.
+struct DeviceScene {
+    TransportTraits traits;
+    TuningChoice choice;  ///< as it was asked for
+    Tuning tuning;
+    bool hasSmoothNormals = false;
+    bool hasVertexColours = false;
+    bool hasPlanes = false;  ///< distances are computed from stored planes, see SurfacePlanes
+    /// Direct light has a closed form: nothing can block an emitter, surfaces are diffuse and flat, and there
+    /// are so few emitters that evaluating the formula for each costs no more than sampling one.
+    bool closedFormApplies = false;
+    std::uint32_t emitterChoices = 0;  ///< as in EmitterTable
+    std::uint32_t emitterRoot = 0;     ///< as in shared::PathParams
+    Bounds emitterBounds{};            ///< of the emitters, enlarged by more than the rounding error of a hit
+    double brightestEmission = 0.0;    ///< radiance
+    double buildSeconds = 0.0, uploadSeconds = 0.0;
+
+    Buffer nodes;  ///< empty with Layout::kRayQuery
+    Buffer triangles, normals, colours, materials, emitterRecords, planes;
+    std::optional<AccelerationStructure> structure{};  ///< with Layout::kRayQuery
+
+    WideBvh tree;                         ///< over all triangles, on the host; empty with Layout::kRayQuery
+    std::vector<std::uint32_t> emitters;  ///< triangles that emit, ascending
+
+    /// What the traversal needs.
+    std::vector<Binding> treeBindings() const;
+    std::uint64_t deviceBytes() const;
+};
+
+/// Throws MachineError, with the numbers, if a scene of this size does not fit into the memory of a GPU. Not
+/// checked for software drivers, which use the host's memory whatever they report.
+void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene);
+
+/// Builds the trees and uploads the scene for one of the integrators. Throws MachineError if it does not fit
+/// the device, and UsageError if the device does not support the requested tuning.
+DeviceScene uploadScene(const Device& device, const Scene& scene, Integrator integrator = Integrator::kPath,
+                        const TuningChoice& choice = {});
+
+/// Brings the device up to date with a scene of the same geometry whose materials and reflectances may be
+/// others, and the integrator, too. The tree over all triangles is not built again. Throws as uploadScene.
+void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene,
+                      Integrator integrator);
+
+}  // namespace duolux

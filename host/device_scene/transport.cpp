@@ -1,0 +1,111 @@
+#include "host/device_scene/transport.h"
+
+#include <algorithm>
+
+namespace duolux {
+
+namespace {
+
+bool any(const glm::vec3& v) {
+    return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
+}
+
+/// The entries that are non-zero in any of the matrices: bit j of row i.
+struct Pattern {
+    unsigned row[2] = {0, 0};
+
+    void add(const LightMatrix& m) {
+        row[0] |= (any(m.m00) ? 1u : 0u) | (any(m.m01) ? 2u : 0u);
+        row[1] |= (any(m.m10) ? 1u : 0u) | (any(m.m11) ? 2u : 0u);
+    }
+    /// The components that can carry importance after this matrix if the components `set` carry it before.
+    unsigned after(unsigned set) const {
+        return ((set & 1) != 0 ? row[0] : 0u) | ((set & 2) != 0 ? row[1] : 0u);
+    }
+};
+
+}  // namespace
+
+std::vector<bool> usedMaterials(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (std::uint32_t m : scene.geometry.materials)
+        used[m] = true;
+    return used;
+}
+
+bool isMirror(const Material& material) {
+    return material.metallic > 0.0f && material.roughness * material.roughness < shared::kSmoothAlpha;
+}
+
+TransportTraits analyseTransport(const Scene& scene) {
+    const std::vector<bool> used = usedMaterials(scene);
+    TransportTraits traits;
+    Pattern opaque;
+    Pattern transparent;
+    bool identity = true;  // on the first column, which carries all importance unless there is a second one
+    const Reflectance* first = nullptr;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (!used[i]) continue;
+        const Reflectance& reflectance = scene.reflectanceOf(scene.materials[i]);
+        if (first == nullptr) first = &reflectance;
+        traits.oneReflectance = traits.oneReflectance && reflectance == *first;
+        if (scene.materials[i].metallic < 1.0f) traits.lobes |= shared::kLobeDiffuse;
+        if (scene.materials[i].metallic > 0.0f) traits.lobes |= shared::kLobeConductor;
+        opaque.add(reflectance.opaque);
+        transparent.add(reflectance.transparent);
+        identity = identity && reflectance.transparent.m00 == glm::vec3(1.0f);
+    }
+    traits.secondColumn =
+        ((opaque.row[0] | opaque.row[1] | transparent.row[0] | transparent.row[1]) & 2) != 0;
+    traits.invisibleScatters = opaque.row[0] != 0;
+    traits.visibleScatters = opaque.row[1] != 0;
+    traits.invisibleCrosses = transparent.row[0] != 0;
+    traits.visibleCrosses = transparent.row[1] != 0;
+    if (!traits.invisibleCrosses && !traits.visibleCrosses) {
+        traits.transmittance = shared::kTransmittanceZero;
+    } else if (identity && !traits.secondColumn) {
+        traits.transmittance = shared::kTransmittanceIdentity;
+    } else {
+        traits.transmittance = shared::kTransmittanceGeneral;
+    }
+    const bool loseVisible = !traits.visibleCrosses;
+    traits.cameraTransmittance = traits.transmittance == shared::kTransmittanceIdentity && !loseVisible
+                                     ? shared::kTransmittanceGeneral
+                                     : traits.transmittance;
+
+    // Follows the components that can carry importance until none can.
+    unsigned set = 3;
+    for (;;) {
+        const unsigned crossed = set | transparent.after(set);
+        const unsigned scattered = opaque.after(crossed | transparent.after(crossed));
+        if (scattered == 0) break;
+        if (scattered == set) {
+            traits.mostScatterings = TransportTraits::kUnlimited;
+            break;
+        }
+        ++traits.mostScatterings;
+        set = scattered;
+    }
+    return traits;
+}
+
+double brightestEmission(const Scene& scene) {
+    const std::vector<bool> used = usedMaterials(scene);
+    double brightest = 0.0;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (!used[i]) continue;
+        const Emission& emission = scene.materials[i].emission;
+        const glm::dvec3 e = glm::max(emission.invisible, emission.visible);
+        brightest = std::max({brightest, e.x, e.y, e.z});
+    }
+    if (scene.pointEmitters.empty()) return brightest;
+    const Bounds bounds = boundsOf(scene.geometry);
+    const glm::dvec3 extent = glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower);
+    for (const PointEmitter& point : scene.pointEmitters) {
+        const glm::dvec3 e = glm::max(point.invisible, point.visible);
+        brightest = std::max(brightest, std::max({e.x, e.y, e.z}) / glm::dot(extent, extent));
+    }
+    return brightest;
+}
+
+}  // namespace duolux

@@ -1,0 +1,229 @@
+// duolux-gl: renders a scene with OpenGL, as the reference for the `local` reflectance.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/app/console.h"
+#include "host/app/exit_status.h"
+#include "host/app/options.h"
+#include "host/app/outputs.h"
+#include "host/base/error.h"
+#include "host/base/version.h"
+#include "host/film/image.h"
+#include "host/scene/hash.h"
+#include "host/tools/gl/context.h"
+#include "host/tools/gl/draw.h"
+#include "host/tools/gl/opengl.h"
+#include "host/view/load.h"
+
+namespace duolux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr float kCoarse = 0.5f;  // above this, lighting at vertices has errors of several percent
+
+struct Arguments {
+    std::string scene, lights = "5", lighting = "fixed-function", size, report;
+    std::vector<std::string> outputs;
+    std::vector<float> window{0.0f, 0.0f, 1.0f, 1.0f};
+    std::uint32_t passes = 64;
+    float exposure = 0.0f;
+};
+
+Lighting lightingOf(const std::string& name) {
+    if (name == "per-fragment") return Lighting::kPerFragment;
+    return name == "wireframe" ? Lighting::kWireframe : Lighting::kFixedFunction;
+}
+
+void writeImages(WriteAll& write, const Arguments& arguments, const LoadedScene& scene,
+                 std::vector<glm::vec3> pixels) {
+    RadianceImage image{scene.settings.width, scene.settings.height, {}, std::move(pixels)};
+    image.invisible.assign(image.visible.size(), glm::vec3(0.0f));
+    ImageOptions options;
+    options.exposure = arguments.exposure;
+    options.metadata = {{"Software", fmt::format("duolux-gl {}", versionString())},
+                        {"lights", arguments.lights},
+                        {"lighting", arguments.lighting},
+                        {"scene", hashScene(scene)}};
+    for (const std::string& output : arguments.outputs)
+        write(output, [&](const std::filesystem::path& path) { writeImage(path, image, options); });
+}
+
+void run(const Arguments& arguments) {
+    const Tiling tiling = Tiling::parse(arguments.lights);
+    std::vector<OutputFile> files;
+    for (const std::string& output : arguments.outputs)
+        files.push_back({"-o", output});
+    if (!arguments.report.empty() && arguments.report != "-")
+        files.push_back({"--report", arguments.report, false});
+    checkOutputs(files, {arguments.scene});
+    const Clock::time_point start = Clock::now();
+    LoadedScene scene = loadScene(arguments.scene);
+    checkNotRead(files, scene.files);
+    for (const Warning& warning : scene.warnings)
+        say(fmt::format("duolux-gl: warning: {}", warning.text));
+    if (!arguments.size.empty()) {
+        const glm::uvec2 size = parseSize(arguments.size);
+        scene.settings.width = size.x;
+        scene.settings.height = size.y;
+    }
+    if (!scene.geometry.colours.empty()) {
+        throw InputError(arguments.scene, "", "has colours of vertices, which duolux-gl does not draw",
+                         "expected materials alone");
+    }
+    if (scene.display != glm::vec2(0.0f, 1.0f)) {
+        throw InputError(arguments.scene, "display", "is not what OpenGL draws", "expected [0, 1]");
+    }
+    if (!scene.pointEmitters.empty()) {
+        throw InputError(arguments.scene, "lights", "have point lights",
+                         "expected emitting surfaces, for which point lights are put here");
+    }
+    for (const Material& material : scene.materials) {
+        if (material.metallic > 0.0f)
+            throw InputError(arguments.scene, fmt::format("material {}", material.name), "is a metal",
+                             "expected diffuse materials, which are all that is drawn here");
+    }
+    DrawOptions options;
+    options.lighting = lightingOf(arguments.lighting);
+    options.passes = arguments.passes;
+    const std::vector<float>& window = arguments.window;
+    if (!(window[2] > 0.0f && window[3] > 0.0f && window[0] + window[2] <= 1.0f &&
+          window[1] + window[3] <= 1.0f)) {
+        throw UsageError(fmt::format("--window {},{},{},{}: expected a part of the image that has an area",
+                                     window[0], window[1], window[2], window[3]));
+    }
+    std::copy(arguments.window.begin(), arguments.window.end(), options.window.begin());
+    std::vector<PointLight> lights;
+    if (options.lighting != Lighting::kWireframe) lights = pointLights(scene, tiling);
+    if (options.lighting == Lighting::kFixedFunction && coarseness(scene, lights) > kCoarse) {
+        say("duolux-gl: warning: some triangles are large against their distance from a light, and OpenGL "
+            "lights them at their corners alone; use smaller ones, or --lighting per-fragment");
+    }
+    const double loadSeconds = secondsSince(start);
+
+    const Clock::time_point contextStart = Clock::now();
+    const GlContext context;
+    const double contextSeconds = secondsSince(contextStart);
+    const Clock::time_point uploadStart = Clock::now();
+    GlScene glScene(scene, scene.settings);
+    glFinish();
+    const double uploadSeconds = secondsSince(uploadStart);
+    const Clock::time_point drawStart = Clock::now();
+    std::vector<glm::vec3> pixels = glScene.draw(lights, options);
+    const double drawSeconds = secondsSince(drawStart);
+    WriteAll write;
+    writeImages(write, arguments, scene, std::move(pixels));
+
+    if (arguments.report.empty()) return write.finish();
+    nlohmann::ordered_json report;
+    report["version"] = 1;
+    report["program"] = {{"version", versionString()}, {"commit", commitString()}};
+    report["scene"] = {{"file", arguments.scene},
+                       {"hash", hashScene(scene)},
+                       {"triangles", scene.geometry.triangles.size()},
+                       {"vertices", glScene.statistics().vertices}};
+    report["settings"] = {{"width", scene.settings.width},
+                          {"height", scene.settings.height},
+                          {"passes", arguments.passes},
+                          {"lights", lights.size()},
+                          {"lighting", arguments.lighting}};
+    report["opengl"] = {{"renderer", context.renderer()},
+                        {"version", context.version()},
+                        {"lights_at_once", glScene.statistics().lightsAtOnce},
+                        {"scene_drawings", glScene.statistics().sceneDrawings}};
+    report["seconds"] = {{"load", loadSeconds},
+                         {"context", contextSeconds},
+                         {"upload", uploadSeconds},
+                         {"draw", drawSeconds},
+                         {"total", secondsSince(start)}};
+    write(arguments.report,
+          [&](const std::filesystem::path& path) { writeReport(path, report.dump(2) + "\n"); });
+    write.finish();
+}
+
+int fail(const std::string& line, ExitStatus status) {
+    say(fmt::format("duolux-gl: {}", line));
+    return static_cast<int>(status);
+}
+
+int parseAndRun(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app{
+        "Draws a scene with OpenGL's own lighting, its luminaires replaced by point lights: the reference "
+        "for the\n"
+        "reflectance `local`, which it draws whatever the scene's own is.",
+        "duolux-gl"};
+    app.set_version_flag("--version", fmt::format("duolux-gl {} ({})", versionString(), commitString()));
+    app.get_formatter()->column_width(36);
+    app.add_option("SCENE", arguments.scene, "The scene: .obj (with its .mtl), .ply or .json")->required();
+    app.add_option("-o,--output", arguments.outputs,
+                   "Image to write: .exr, .png or .pfm; may be given several times")
+        ->required()
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->take_all()
+        ->type_name("FILE");
+    app.add_option("--lights", arguments.lights,
+                   "Point lights of each luminaire: 5 (centre and corners of 3x3 tiles), or ROWSxCOLUMNS")
+        ->capture_default_str()
+        ->type_name("N");
+    app.add_option(
+           "--lighting", arguments.lighting,
+           "OpenGL's fixed function, at vertices; the same per fragment by a shader; or the mesh's edges")
+        ->check(CLI::IsMember({"fixed-function", "per-fragment", "wireframe"}))
+        ->capture_default_str()
+        ->type_name("NAME");
+    app.add_option("--passes", arguments.passes, "Jittered images to average: samples per pixel")
+        ->check(wholeNumber(1, 65536))
+        ->capture_default_str()
+        ->type_name("N");
+    app.add_option("--size", arguments.size, "Image size as WIDTHxHEIGHT (default: the scene's)")
+        ->type_name("WIDTHxHEIGHT");
+    app.add_option("--window", arguments.window,
+                   "Part of the image to draw, as fractions of it: LEFT,TOP,WIDTH,HEIGHT")
+        ->delimiter(',')
+        ->expected(4)
+        ->check(between(0.0, 1.0))
+        ->type_name("L,T,W,H");
+    app.add_option("--exposure", arguments.exposure, "Stops by which a PNG is brightened")
+        ->check(between(-64.0, 64.0))
+        ->type_name("STOPS");
+    app.add_option("--report", arguments.report, "Write statistics as JSON to this file (-: standard output)")
+        ->type_name("FILE");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        return fail(describeParseError(app, e), ExitStatus::kUsage);
+    }
+    run(arguments);
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace duolux
+
+int main(int argc, char** argv) {
+    using duolux::ExitStatus;
+    try {
+        return duolux::parseAndRun(argc, argv);
+    } catch (const duolux::Error& e) {
+        return duolux::fail(e.what(), statusOf(e));
+    } catch (const std::exception& e) {
+        return duolux::fail(e.what(), ExitStatus::kMachineFailed);
+    }
+}

@@ -1,0 +1,88 @@
+// duolux-paper: the evaluation of the paper, repeated against OpenGL.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "host/app/console.h"
+#include "host/app/exit_status.h"
+#include "host/app/options.h"
+#include "host/base/error.h"
+#include "host/base/file.h"
+#include "host/base/version.h"
+#include "host/tools/paper/experiment.h"
+#include "host/tools/paper/report.h"
+
+namespace duolux {
+
+namespace {
+
+int fail(const std::string& line, ExitStatus status) {
+    say(fmt::format("duolux-paper: {}", line));
+    return static_cast<int>(status);
+}
+
+int parseAndRun(int argc, char** argv) {
+    ExperimentSetup setup;
+    std::string folder, programs;
+    CLI::App app{
+        "Repeats the paper's evaluation: `local` by transport against OpenGL, with pictures, tables and "
+        "speeds, as a\n"
+        "page (index.html), as tables (tables.md) and as JSON (results.json).",
+        "duolux-paper"};
+    app.set_version_flag("--version", fmt::format("duolux-paper {} ({})", versionString(), commitString()));
+    app.get_formatter()->column_width(36);
+    app.add_option("-o,--output", folder, "Folder for the report; made if need be")
+        ->required()
+        ->type_name("DIR");
+    app.add_option("--duolux", setup.duolux, "The renderer")->required()->type_name("PROGRAM");
+    app.add_option("--duolux-gl", setup.duoluxGl, "OpenGL's renderer")->required()->type_name("PROGRAM");
+    app.add_option("--triangles", setup.triangles,
+                   "Of the scene with two spheres (speed is measured at 1,000 to 2,000,000)")
+        ->check(wholeNumber(1000, 50'000'000))
+        ->capture_default_str()
+        ->type_name("N");
+    app.add_option("--size", setup.size, "Width and height of the pictures")
+        ->check(wholeNumber(32, 4096))
+        ->capture_default_str()
+        ->type_name("N");
+    app.add_flag("--quick", setup.quick,
+                 "Few samples, few lights, small scenes for speed: to see that all works");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        return fail(describeParseError(app, e), ExitStatus::kUsage);
+    }
+    setup.folder = folder;
+    if (setup.quick) {
+        setup.spp = {4, 16};
+        setup.passes = 16;
+        setup.crossing = {1000, 2000};
+        setup.repetitions = 1;
+    }
+    const Experiment experiment = runExperiment(setup);
+    writeFile(setup.folder / "tables.md", markdownTables(setup, experiment));
+    writeFile(setup.folder / "results.json", jsonReport(setup, experiment));
+    writeFile(setup.folder / "index.html", htmlReport(setup, experiment));
+    fmt::print("{}", markdownTables(setup, experiment));
+    fmt::print("The report: {}\n", (setup.folder / "index.html").string());
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace duolux
+
+int main(int argc, char** argv) {
+    try {
+        return duolux::parseAndRun(argc, argv);
+    } catch (const duolux::Error& e) {
+        return duolux::fail(e.what(), statusOf(e));
+    } catch (const std::exception& e) {
+        return duolux::fail(e.what(), duolux::ExitStatus::kMachineFailed);
+    }
+}

@@ -1,0 +1,207 @@
+#include "host/tools/peers/embree_path_tracer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/render/pixel_order.h"
+#include "host/scene/emitters.h"
+#include "host/scene/image_plane.h"
+
+namespace duolux {
+
+namespace {
+
+using glm::vec2;
+using glm::vec3;
+
+constexpr float kPi = 3.14159265358979f;
+constexpr float kInfinity = 1e30f;
+
+/// PCG32: O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random
+/// Number Generation", 2014.
+class Random {
+  public:
+    explicit Random(std::uint64_t stream) : increment_(2 * stream + 1) {
+        bits();
+        state_ += 0x853c49e6748fea9bull;
+        bits();
+    }
+    std::uint32_t bits() {
+        const std::uint64_t old = state_;
+        state_ = old * 6364136223846793005ull + increment_;
+        const auto shifted = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
+        const auto turn = static_cast<std::uint32_t>(old >> 59);
+        return shifted >> turn | shifted << (-turn & 31u);
+    }
+    float uniform() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
+
+  private:
+    std::uint64_t state_ = 0, increment_;
+};
+
+float largest(const vec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+/// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+vec3 fromFrame(const vec3& n, const vec3& local) {
+    const float s = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (s + n.z);
+    const float b = n.x * n.y * a;
+    const vec3 tangent(1.0f + s * n.x * n.x * a, s * b, -s * n.x);
+    const vec3 bitangent(b, s + n.y * n.y * a, -n.y);
+    return tangent * local.x + bitangent * local.y + n * local.z;
+}
+
+vec3 cosineHemisphere(Random& random) {
+    const float u = random.uniform();
+    const float phi = 2.0f * kPi * random.uniform();
+    const float r = std::sqrt(u);
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0f - u)};
+}
+
+float balance(float a, float b) {
+    return a > 0.0f ? a / (a + b) : 0.0f;
+}
+
+class PathTracer {
+  public:
+    PathTracer(const EmbreeScene& embree, const Scene& scene, const RenderSettings& settings,
+               const EmitterTable& emitters)
+        : embree_(embree),
+          scene_(scene),
+          settings_(settings),
+          emitters_(emitters),
+          densities_(scene.materials.size()),
+          plane_(imagePlane(scene.camera, settings.width, settings.height)) {
+        const std::vector<std::uint32_t> triangles = emittingTriangles(scene);
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            densities_[scene.geometry.materials[triangles[i]]] = emitters.records[i].density;
+    }
+
+    vec3 pixel(std::uint32_t pixel) const {
+        vec3 sum(0.0f);
+        Random random((std::uint64_t{settings_.seed} << 32) + pixel);
+        for (std::uint32_t s = 0; s < settings_.spp; ++s)
+            sum += sample(pixel, random);
+        return sum / static_cast<float>(settings_.spp);
+    }
+
+  private:
+    struct Vertex {
+        vec3 position, normal;  // moved off the surface, to the side of the ray
+        vec3 albedo;
+    };
+
+    vec3 sample(std::uint32_t pixel, Random& random) const {
+        const vec2 size(settings_.width, settings_.height);
+        const float x = static_cast<float>(pixel % settings_.width) + random.uniform();
+        const float y = static_cast<float>(pixel / settings_.width) + random.uniform();
+        auto [origin, direction] =
+            cameraRay(scene_.camera, plane_, {x / size.x * 2.0f - 1.0f, 1.0f - y / size.y * 2.0f});
+        vec3 radiance(0.0f);
+        vec3 throughput(1.0f);
+        float pdf = 0.0f;
+        for (std::uint32_t scatterings = 0;; ++scatterings) {
+            const EmbreeScene::Hit hit = embree_.nearest(origin, direction, kInfinity);
+            if (hit.triangle == EmbreeScene::Hit::kNone) return radiance;
+            const std::uint32_t index = scene_.geometry.materials[hit.triangle];
+            const Material& material = scene_.materials[index];
+            const glm::uvec3 corner = scene_.geometry.triangles[hit.triangle];
+            const vec3& a = scene_.geometry.positions[corner.x];
+            const vec3& b = scene_.geometry.positions[corner.y];
+            const vec3& c = scene_.geometry.positions[corner.z];
+            vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+            const float cosine = glm::dot(normal, direction);
+            const bool front = cosine < 0.0f;
+            if (front || material.emission.sides == Sides::kBoth) {
+                const vec3& emission =
+                    scatterings == 0 ? material.emission.visible : material.emission.invisible;
+                const float ofLight = densities_[index] * hit.t * hit.t / std::max(std::abs(cosine), 1e-12f);
+                radiance += throughput * emission * (scatterings > 0 ? balance(pdf, ofLight) : 1.0f);
+            }
+            const bool scatters = front || material.sides == Sides::kBoth;
+            if (scatterings >= settings_.bounces || !scatters || !(largest(material.baseColor) > 0.0f))
+                return radiance;
+            if (!front) normal = -normal;
+            const vec3 extent = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+            const vec3 position = origin + direction * hit.t + normal * (largest(extent) * 0x1p-19f);
+            throughput *= material.baseColor;
+            radiance += throughput * directLight({position, normal, material.baseColor}, random);
+            const float weight = largest(throughput);
+            const float survival =
+                scatterings >= 2 && weight < 1.0f ? std::min(std::sqrt(weight), 0.95f) : 1.0f;
+            if (random.uniform() >= survival) return radiance;
+            throughput /= survival;
+            const vec3 local = cosineHemisphere(random);
+            origin = position;
+            direction = glm::normalize(fromFrame(normal, local));
+            pdf = local.z / kPi;
+        }
+    }
+
+    /// Of one emitter, on a surface of albedo 1.
+    vec3 directLight(const Vertex& vertex, Random& random) const {
+        if (emitters_.choices == 0) return vec3(0.0f);
+        const std::uint64_t count = emitters_.choices;
+        auto index = static_cast<std::size_t>(random.bits() * count >> 32);
+        if (random.uniform() >= emitters_.records[index].threshold) index = emitters_.records[index].alias;
+        const shared::DeviceEmitter& light = emitters_.records[index];
+        float u = random.uniform();
+        float v = random.uniform();
+        if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
+        const vec3 edge1 = light.v1 - light.v0;
+        const vec3 edge2 = light.v2 - light.v0;
+        const vec3 normal = glm::normalize(glm::cross(edge1, edge2));
+        vec3 toLight = light.v0 + u * edge1 + v * edge2 - vertex.position;
+        const bool front = glm::dot(normal, toLight) < 0.0f;
+        toLight += normal * (front ? light.positionError : -light.positionError);
+        const float cosAtVertex = glm::dot(vertex.normal, toLight);
+        if (cosAtVertex <= 0.0f || !(front || (light.flags & shared::kEmitterBack) != 0u)) return vec3(0.0f);
+        const float distance = glm::length(toLight);
+        const vec3 direction = toLight / distance;
+        const float cosine = cosAtVertex / distance;
+        const float pdf =
+            light.density * distance * distance / std::max(std::abs(glm::dot(normal, direction)), 1e-12f);
+        if (embree_.occluded(vertex.position, direction, distance)) return vec3(0.0f);
+        return light.invisible * (cosine / kPi * balance(pdf, cosine / kPi) / pdf);
+    }
+
+    const EmbreeScene& embree_;
+    const Scene& scene_;
+    const RenderSettings& settings_;
+    const EmitterTable& emitters_;
+    std::vector<float> densities_;  // with which points of a material's emitters are sampled, m^-2
+    ImagePlane plane_;
+};
+
+}  // namespace
+
+RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const RenderSettings& settings,
+                             const EmitterTable& emitters) {
+    const auto own = [](const Material& m) { return m.reflectance.has_value() || m.metallic > 0.0f; };
+    if (!scene.geometry.normals.empty() || !scene.pointEmitters.empty() ||
+        std::any_of(scene.materials.begin(), scene.materials.end(), own)) {
+        throw UsageError(
+            fmt::format("{}: Embree's path tracer supports only flat normals, diffuse surfaces, emitting "
+                        "triangles and `global`",
+                        scene.source.string()));
+    }
+    const PathTracer tracer(embree, scene, settings, emitters);
+    RadianceImage image{settings.width, settings.height, {}, {}};
+    const std::size_t pixels = std::size_t{image.width} * image.height;
+    image.invisible.resize(pixels);
+    image.visible.resize(pixels);
+    const std::vector<std::uint32_t> order = pixelOrder(image.width, image.height);
+    parallelFor(pixels, 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            image.visible[order[i]] = tracer.pixel(order[i]);
+    });
+    return image;
+}
+
+}  // namespace duolux

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include "host/device_scene/transport.h"
+
+namespace duolux {
+namespace {
+
+Scene sceneWith(const Reflectance& reflectance) {
+    Scene scene;
+    scene.geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    scene.geometry.triangles = {{0, 1, 2}, {2, 1, 0}};
+    scene.geometry.materials = {0, 1};
+    scene.materials.resize(2);
+    scene.materials[0].emission.invisible = glm::vec3(4.0f);
+    scene.reflectance = reflectance;
+    return scene;
+}
+
+TransportTraits traitsOf(std::string_view preset) {
+    return analyseTransport(sceneWith(*presetReflectance(preset)));
+}
+
+TEST(Transport, Presets) {
+    EXPECT_EQ(traitsOf("global").transmittance, shared::kTransmittanceZero);
+    EXPECT_EQ(traitsOf("one-bounce").transmittance, shared::kTransmittanceZero);
+    EXPECT_EQ(traitsOf("local").transmittance, shared::kTransmittanceIdentity);
+    EXPECT_EQ(traitsOf("shadowless").transmittance, shared::kTransmittanceIdentity);
+    EXPECT_EQ(traitsOf("local").mostScatterings, 1u);
+    EXPECT_EQ(traitsOf("one-bounce").mostScatterings, 1u);
+    EXPECT_EQ(traitsOf("global").mostScatterings, TransportTraits::kUnlimited);
+    EXPECT_EQ(traitsOf("shadowless").mostScatterings, TransportTraits::kUnlimited);
+    EXPECT_FALSE(traitsOf("local").invisibleScatters);
+    EXPECT_TRUE(traitsOf("local").invisibleCrosses);
+    for (const Preset& preset : presets()) {
+        EXPECT_TRUE(traitsOf(preset.name).oneReflectance);
+        EXPECT_FALSE(traitsOf(preset.name).secondColumn);
+        EXPECT_TRUE(traitsOf(preset.name).visibleScatters);
+        EXPECT_FALSE(traitsOf(preset.name).visibleCrosses);
+    }
+}
+
+TEST(Transport, PartialTransmissionIsGeneral) {
+    EXPECT_EQ(analyseTransport(sceneWith(blendReflectance(0.5f, 1.0f))).transmittance,
+              shared::kTransmittanceGeneral);
+}
+
+TEST(Transport, LightOnItsWayToTheCameraHasBothComponents) {
+    for (const Preset& preset : presets())
+        EXPECT_EQ(traitsOf(preset.name).cameraTransmittance, traitsOf(preset.name).transmittance);
+    // Invisible light that is made visible by a crossing is lost on surfaces, but not on the camera.
+    Reflectance glowing = *presetReflectance("local");
+    glowing.transparent.m10 = {0.0f, 0.0f, 0.5f};
+    EXPECT_EQ(analyseTransport(sceneWith(glowing)).transmittance, shared::kTransmittanceIdentity);
+    EXPECT_EQ(analyseTransport(sceneWith(glowing)).cameraTransmittance, shared::kTransmittanceGeneral);
+}
+
+// The matrix passes the invisible component unchanged only if it does so in every channel.
+TEST(Transport, IdentityIsThatOfAllChannels) {
+    for (int channel = 0; channel < 3; ++channel) {
+        for (const float other : {0.5f, 2.0f}) {
+            Scene scene = sceneWith(*presetReflectance("local"));
+            scene.materials[1].reflectance = scene.reflectance;
+            scene.materials[1].reflectance->transparent.m00[channel] = other;
+            EXPECT_EQ(analyseTransport(scene).transmittance, shared::kTransmittanceGeneral) << channel;
+            scene.reflectance.transparent.m00[channel] = other;
+            EXPECT_EQ(analyseTransport(scene).cameraTransmittance, shared::kTransmittanceGeneral) << channel;
+        }
+    }
+}
+
+TEST(Transport, OneOpaqueMaterialMakesShadows) {
+    Scene scene = sceneWith(*presetReflectance("shadowless"));
+    scene.materials[1].reflectance = presetReflectance("global");
+    const TransportTraits traits = analyseTransport(scene);
+    EXPECT_EQ(traits.transmittance, shared::kTransmittanceGeneral);
+    EXPECT_FALSE(traits.oneReflectance);
+}
+
+TEST(Transport, UnusedMaterialsDoNotCount) {
+    Scene scene = sceneWith(*presetReflectance("global"));
+    scene.materials.push_back({});
+    scene.materials.back().reflectance = presetReflectance("local");
+    EXPECT_EQ(analyseTransport(scene).transmittance, shared::kTransmittanceZero);
+    EXPECT_TRUE(analyseTransport(scene).oneReflectance);
+}
+
+TEST(Transport, SecondColumn) {
+    Reflectance reflectance = *presetReflectance("global");
+    reflectance.opaque.m01 = {0.0f, 0.1f, 0.0f};
+    EXPECT_TRUE(analyseTransport(sceneWith(reflectance)).secondColumn);
+    // Identity transmittance of the invisible component is not enough then.
+    reflectance.transparent.m00 = glm::vec3(1.0f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transmittance, shared::kTransmittanceGeneral);
+}
+
+/// Importance that alternates between the components: with 01 and 10 the series is infinite, with 10 alone it
+/// ends after one event.
+TEST(Transport, ScatteringsFollowTheComponents) {
+    Reflectance reflectance;
+    reflectance.opaque.m10 = glm::vec3(1.0f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, 1u);
+    reflectance.opaque.m01 = glm::vec3(1.0f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, TransportTraits::kUnlimited);
+    // A crossing that turns invisible importance into visible closes the cycle, too.
+    reflectance.opaque.m01 = glm::vec3(0.0f);
+    reflectance.transparent.m01 = glm::vec3(0.5f);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, TransportTraits::kUnlimited);
+    EXPECT_EQ(analyseTransport(sceneWith({})).mostScatterings, 0u);
+}
+
+TEST(Transport, BrightestEmissionIsOfWhatIsThere) {
+    Scene scene = sceneWith({});
+    scene.materials[1].emission.visible = {1.0f, 9.0f, 0.0f};
+    scene.materials.push_back({});
+    scene.materials.back().emission.invisible = glm::vec3(1e9f);  // no triangle has it
+    EXPECT_EQ(brightestEmission(scene), 9.0);
+    scene.materials[0].emission = scene.materials[1].emission = {};
+    EXPECT_EQ(brightestEmission(scene), 0.0);
+}
+
+}  // namespace
+}  // namespace duolux

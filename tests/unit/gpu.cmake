@@ -1,1 +1,0 @@
-duolux_test(gpu_test SOURCES gpu_emitter_table_test.cpp gpu_surface_planes_test.cpp gpu_transport_test.cpp gpu_tuning_test.cpp render_checkpoint_test.cpp render_film_quantum_test.cpp render_pixel_order_test.cpp render_schedule_test.cpp LINK duolux_render)

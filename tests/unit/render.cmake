@@ -1,0 +1,1 @@
+duolux_test(render_test SOURCES device_scene_emitter_table_test.cpp device_scene_surface_planes_test.cpp device_scene_transport_test.cpp device_scene_tuning_test.cpp render_checkpoint_test.cpp render_film_quantum_test.cpp render_pixel_order_test.cpp render_schedule_test.cpp LINK duolux_render)
