@@ -16,15 +16,17 @@ void gather(inout Gathered gathered, Light light, uint scatterings) {
     gather(gathered, light, scatterings, params.bounces, params.display);
 }
 
-// Collects what the surface emits; weighted, because direct light is sampled at vertices, too.
+// Collects what the surface emits, which may be nothing; weighted, because direct light is sampled at vertices, too.
 void collectEmission(inout Gathered gathered, Path path, SurfaceHit hit, LightMatrix w, float t, uint rank) {
     bool emits = rank < params.emittingTriangles;
     Emitter emitter = fetchEmitter(emits ? rank : 0u);
     float pdf = emitterPdf(emitter, t * t, hit.cosine);
     float misWeight = path.scatterings > 0u ? balanceHeuristic(path.bsdfPdf, pdf) : 1.0;
     if (kDirectLight == kDirectLightClosedForm) misWeight = path.scatterings > 0u ? 0.0 : 1.0;
+    // Selected rather than branched on: a branch around gather() makes `global` 8 % slower on lavapipe.
+    emitter.flags = emits ? emitter.flags : 0u;
     Light collected = lightApply(w, emissionOn(emitter, hit.front));
-    if (emits) gather(gathered, lightScale(collected, vec3(misWeight)), path.scatterings);
+    gather(gathered, lightScale(collected, vec3(misWeight)), path.scatterings);
 }
 
 // `importance`: W O at the vertex.

@@ -36,14 +36,30 @@ layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
 #include "shaders/kernels/camera_connection.glsl"
 #include "shaders/kernels/team.glsl"
 
-// The particle of this number leaves its emitter. `outgoing`: what the camera may see of it.
-LightPath emitPath(uvec2 stream, out Outgoing outgoing) {
-    uvec2 words = drawWords(stream, sampleDimension(0u, 0u, kDimensionEmitter));
-    EmitterChoice choice = chooseEmitter(params.emitterCount, words);
-    Emitter emitter = fetchEmitter(choice.index);
-    EmitterPoint on = pointOnEmitter(emitter, choice.u);
-    float side = drawChoice(stream, sampleDimension(0u, 0u, kDimensionSide));
-    EmittedRay ray = emitRay(emitter, on, side, drawPair(stream, sampleDimension(0u, 0u, kDimensionEmission)));
+// Where a particle starts.
+struct Start {
+    Emitter emitter;
+    EmitterPoint on;
+    float side;  // a uniform number
+};
+
+// The start of the particle of this number. `outgoing`: what the camera may see of it, from whichever side the particle
+// leaves.
+Start startPath(uvec2 stream, out Outgoing outgoing) {
+    EmitterChoice choice =
+        chooseEmitter(params.emitterCount, drawWords(stream, sampleDimension(0u, 0u, kDimensionEmitter)));
+    Start start;
+    start.emitter = fetchEmitter(choice.index);
+    start.on = pointOnEmitter(start.emitter, choice.u);
+    start.side = drawChoice(stream, sampleDimension(0u, 0u, kDimensionSide));
+    EmitterSeen seen = seeEmitter(start.emitter, start.on, directionToCamera(start.on.position));
+    outgoing = Outgoing(seen.point, seen.intensity, 0u);
+    return start;
+}
+
+// The particle leaves its emitter.
+LightPath emitPath(uvec2 stream, Start start, vec2 u) {
+    EmittedRay ray = emitRay(start.emitter, start.on, start.side, u);
     LightPath path;
     path.stream = stream;
     path.flux = ray.flux;
@@ -52,10 +68,6 @@ LightPath emitPath(uvec2 stream, out Outgoing outgoing) {
     path.scatterings = 0u;
     path.crossings = 0u;
     path.ended = !(path.emitted > 0.0) || params.bounces == 0u;
-
-    // Whatever side the particle leaves from, the camera sees the one that faces it.
-    EmitterSeen seen = seeEmitter(emitter, on, directionToCamera(on.position));
-    outgoing = Outgoing(seen.point, seen.intensity, 0u);
     return path;
 }
 
@@ -73,8 +85,8 @@ bool endSegment(inout LightPath path, inout Vertex vertex) {
 }
 
 // The particle leaves a vertex for a new segment.
-void beginSegment(inout LightPath path, Vertex vertex) {
-    BsdfSample s = scatter(vertex, -path.segment.direction, path.stream, path.scatterings, kModeImportance);
+void beginSegment(inout LightPath path, Vertex vertex, vec2 u) {
+    BsdfSample s = scatter(vertex, -path.segment.direction, u, path.stream, path.scatterings, kModeImportance);
     path.flux = lightScale(path.scattered, s.weight);
     path.segment = leaveVertex(vertex.point, s.wi);
     path.scatterings += 1u;
@@ -153,6 +165,8 @@ void main() {
             Outgoing outgoing;
             bool connects = false;
             bool leaves = false;
+            bool starts = false;
+            Start start;
             if (connection.pending) {
                 continueConnection(connection, sums, path.stream, ray, found, tri.materialFlags & kMaterialMask);
             } else if (!path.ended) {
@@ -167,12 +181,20 @@ void main() {
                 uint taken = takeItem(team);
                 working = taken < team.items;
                 hasPath = working;
-                path = emitPath(pathStream(itemOf(team, taken)), outgoing);
+                path.stream = pathStream(itemOf(team, taken));
+                path.crossings = 0u;
+                start = startPath(path.stream, outgoing);
                 vertex.weightSum = 0.0;
                 connects = true;
+                starts = true;
             }
             if (connects) connect(connection, path, outgoing);
-            if (leaves) beginSegment(path, vertex);
+            // One pair of random numbers for both kinds of lanes.
+            uint dimension = starts ? sampleDimension(0u, 0u, kDimensionEmission)
+                                    : sampleDimension(path.scatterings, 0u, kDimensionDirection);
+            vec2 u = drawPair(path.stream, dimension);
+            if (leaves) beginSegment(path, vertex, u);
+            if (starts) path = emitPath(path.stream, start, u);
             connection.pending = connection.pending && working;
             path.ended = path.ended || !working;
             ray = nextRay(path, connection, sums);

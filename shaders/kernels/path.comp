@@ -39,7 +39,8 @@ void endSegment(inout Path path, inout Vertex vertex) {
     uint roulette = sampleDimension(path.scatterings, path.crossings, kDimensionRoulette);
     if (drawChoice(path.stream, roulette) >= survival) return;
 
-    BsdfSample s = scatter(vertex, -path.segment.direction, path.stream, path.scatterings, kModeRadiance);
+    vec2 u = drawPair(path.stream, sampleDimension(path.scatterings, 0u, kDimensionDirection));
+    BsdfSample s = scatter(vertex, -path.segment.direction, u, path.stream, path.scatterings, kModeRadiance);
     path.importance = lightScale(path.scattered, s.weight * (weightSum / (vertex.weight * survival)));
     path.segment = leaveVertex(vertex.point, s.wi);
     path.bsdfPdf = s.pdf;

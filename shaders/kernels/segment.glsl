@@ -52,8 +52,7 @@ Segment leaveVertex(SurfacePoint point, vec3 direction) {
 }
 
 // A direction in which a path leaves a vertex.
-BsdfSample scatter(Vertex vertex, vec3 wo, uvec2 stream, uint scatterings, uint mode) {
-    vec2 u = drawPair(stream, sampleDimension(scatterings, 0u, kDimensionDirection));
+BsdfSample scatter(Vertex vertex, vec3 wo, vec2 u, uvec2 stream, uint scatterings, uint mode) {
     float lobe = kOnlyDiffuse ? 0.0 : drawChoice(stream, sampleDimension(scatterings, 0u, kDimensionLobe));
     return bsdfSample(vertex.bsdf, frameOf(vertex.point), wo, lobe, u, mode);
 }
