@@ -105,9 +105,9 @@ TEST_P(Cornell, MatchesReference) {
                     {.lightPaths = true});
 }
 
-INSTANTIATE_TEST_SUITE_P(Often, Cornell, testing::ValuesIn(everyOther(cornellCases(), 0)),
+INSTANTIATE_TEST_SUITE_P(Often, Cornell, testing::ValuesIn(oftenCases(cornellCases())),
                          [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Nightly, Cornell, testing::ValuesIn(everyOther(cornellCases(), 1)),
+INSTANTIATE_TEST_SUITE_P(Nightly, Cornell, testing::ValuesIn(nightlyCases(cornellCases())),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

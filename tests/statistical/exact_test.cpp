@@ -82,9 +82,9 @@ INSTANTIATE_TEST_SUITE_P(Metal, Exact, testing::ValuesIn(metalCases()),
                          [](const auto& test) { return test.param.name; });
 INSTANTIATE_TEST_SUITE_P(Points, Exact, testing::ValuesIn(pointCases()),
                          [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Often, Exact, testing::ValuesIn(everyOther(exactCases(), 0)),
+INSTANTIATE_TEST_SUITE_P(Often, Exact, testing::ValuesIn(oftenCases(exactCases())),
                          [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Nightly, Exact, testing::ValuesIn(everyOther(exactCases(), 1)),
+INSTANTIATE_TEST_SUITE_P(Nightly, Exact, testing::ValuesIn(nightlyCases(exactCases())),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -41,9 +41,9 @@ std::vector<ExactCase> casesForLight() {
     return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(Often, LightExact, testing::ValuesIn(everyOther(casesForLight(), 0)),
+INSTANTIATE_TEST_SUITE_P(Often, LightExact, testing::ValuesIn(oftenCases(casesForLight())),
                          [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Nightly, LightExact, testing::ValuesIn(everyOther(casesForLight(), 1)),
+INSTANTIATE_TEST_SUITE_P(Nightly, LightExact, testing::ValuesIn(nightlyCases(casesForLight())),
                          [](const auto& test) { return test.param.name; });
 
 struct PairCase {
@@ -186,9 +186,9 @@ TEST_P(Pair, GatheringAndShootingAgree) {
                     estimatesOf(renderSeeds(pair.scene, 64, 24, 1000)), {.lightPaths = true});
 }
 
-INSTANTIATE_TEST_SUITE_P(Often, Pair, testing::ValuesIn(everyOther(pairCases(), 0)),
+INSTANTIATE_TEST_SUITE_P(Often, Pair, testing::ValuesIn(oftenCases(pairCases())),
                          [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Nightly, Pair, testing::ValuesIn(everyOther(pairCases(), 1)),
+INSTANTIATE_TEST_SUITE_P(Nightly, Pair, testing::ValuesIn(nightlyCases(pairCases())),
                          [](const auto& test) { return test.param.name; });
 
 /// If both components arrive equally, every vertex must be connected, whichever component is displayed:

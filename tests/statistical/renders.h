@@ -30,13 +30,20 @@ std::optional<Renders> renderOtherEstimator(const LoadedScene& scene, std::uint3
 /// The same with the light tracer.
 Renders renderByLight(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds);
 
-/// Every second of the cases, beginning with the `first`. Where cases take long, those with an even number
-/// run every time, the others nightly.
+/// Where cases take long, one in three runs every time, and the others nightly.
 template <typename Case>
-std::vector<Case> everyOther(const std::vector<Case>& cases, std::size_t first) {
+std::vector<Case> oftenCases(const std::vector<Case>& cases) {
     std::vector<Case> chosen;
-    for (std::size_t i = first; i < cases.size(); i += 2)
+    for (std::size_t i = 0; i < cases.size(); i += 3)
         chosen.push_back(cases[i]);
+    return chosen;
+}
+template <typename Case>
+std::vector<Case> nightlyCases(const std::vector<Case>& cases) {
+    std::vector<Case> chosen;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (i % 3 != 0) chosen.push_back(cases[i]);
+    }
     return chosen;
 }
 
