@@ -21,9 +21,7 @@ float angleOf(float sine, float cosine) {
 
 // The angle between a and b times the component along `normal` of the unit vector perpendicular to both.
 float edgeIntegral(vec3 a, vec3 b, vec3 normal) {
-    // a x b = a x (b - a). The shorter factor loses fewer digits if the corners are close together.
-    vec3 edge = b - a;
-    vec3 across = cross(a, dot(edge, edge) < dot(b, b) ? edge : b);
+    vec3 across = cross(a, b);
     float sine = length(across);
     float angle = angleOf(sine, dot(a, b));
     return sine > 0.0 ? angle * dot(across, normal) / sine : 0.0;

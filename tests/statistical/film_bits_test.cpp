@@ -29,7 +29,7 @@ struct Expected {
 };
 
 constexpr Expected kExpected[] = {
-    {"cornell", "local", 0x0eb83f64e9b4fe98, 0x139920d76d074adc},
+    {"cornell", "local", 0x491654071959e41a, 0x139920d76d074adc},
     {"cornell", "global", 0x3de835ae30340c59, 0x313a6a18a8f0ed63},
     {"cornell", "shadowless", 0x12c73ac1c0faa1b7, 0x7e58356caf430fd3},
     {"cornell", "one-bounce", 0x5459c41beaeeae53, 0xa59b13c9062862e1},
@@ -37,11 +37,11 @@ constexpr Expected kExpected[] = {
     {"spot", "global", 0x858169b5cb755526, 0x3f0b873036fc81fe},
     {"spot", "shadowless", 0xe4429d42a9a46722, 0x3c4408ef42ee645f},
     {"spot", "one-bounce", 0xb1904a30e6276902, 0xb2ca4cbb38ed595f},
-    {"uplight", "local", 0x5e4d9e26cfc36629, 0x451f18fefc103ee9},
+    {"uplight", "local", 0x98fd6b0ec0b028b5, 0x451f18fefc103ee9},
     {"uplight", "global", 0xad692ff7de5bca8c, 0x34f10c9bba64499a},
     {"uplight", "shadowless", 0x295f1fe4fc0b3efc, 0xa8d0f025e3e19a9e},
     {"uplight", "one-bounce", 0x30a055a029cdab66, 0x23914182f5dbdb0d},
-    {"two-spheres", "local", 0x0a94d2bba1704f33, 0xfac12c892dd69e88},
+    {"two-spheres", "local", 0x7ecc2e6c155643dc, 0xfac12c892dd69e88},
     {"two-spheres", "global", 0xf1b2604555b53265, 0x338a2abdcdd981a4},
     {"two-spheres", "shadowless", 0x2109b5bbe6b52105, 0x1aa98016caba9837},
     {"two-spheres", "one-bounce", 0xda066579f245f7c0, 0x824fd5fa09e24e4f},
