@@ -127,12 +127,13 @@ void tryInProgram(MutationList& list) {
     const Copy copy(list.root);
     // First the tests that detect most mutations of a file, then all tests for the remaining mutations.
     std::map<std::string, Limits> limits;
-    for (const Mutation& m : list.mutations) {
-        Limits& here = limits[list.firstTests(m)];
-        if (here.empty()) here = limitsWithoutMutation(copy, list.firstTests(m));
-    }
     for (Mutation& m : list.mutations) {
-        tryOne(copy, list, list.firstTests(m), limits[list.firstTests(m)], m);
+        Limits& here = limits[list.firstTests(m)];
+        if (here.empty()) {
+            copy.build();  // without the mutation before
+            here = limitsWithoutMutation(copy, list.firstTests(m));
+        }
+        tryOne(copy, list, list.firstTests(m), here, m);
         if (m.decided()) printVerdict(list, m);
     }
     if (std::ranges::all_of(list.mutations, &Mutation::decided)) return;
