@@ -73,7 +73,7 @@ TransportTraits analyseTransport(const Scene& scene) {
                                      ? shared::kTransmittanceGeneral
                                      : traits.transmittance;
 
-    // Follows the components that can carry importance until none can.
+    // Follows the components that can carry importance until none can. From both on, the set only shrinks.
     unsigned set = 3;
     for (;;) {
         const unsigned crossed = set | transparent.after(set);

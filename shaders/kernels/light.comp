@@ -182,7 +182,7 @@ void main() {
                 working = taken < team.items;
                 hasPath = working;
                 path.stream = pathStream(itemOf(team, taken));
-                path.crossings = 0u;
+                path.crossings = 0u;  // for connect(); emitPath() sets the rest
                 start = startPath(path.stream, outgoing);
                 vertex.weightSum = 0.0;
                 connects = true;

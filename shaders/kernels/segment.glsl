@@ -39,7 +39,7 @@ uvec2 drawWords(uvec2 stream, uint dimension) {
 vec2 drawPair(uvec2 stream, uint dimension) {
     return samplePair(kSampler, stream.x, stream.y, dimension, params.seed);
 }
-float drawChoice(uvec2 stream, uint dimension) { return sampleChoice(stream.x, stream.y, dimension, params.seed).x; }
+float drawChoice(uvec2 stream, uint dimension) { return sampleChoice(stream.x, stream.y, dimension, params.seed); }
 
 // Without smooth normals a vertex need not keep both normals.
 BsdfFrame frameOf(SurfacePoint point) {

@@ -38,9 +38,9 @@ vec2 samplePair(uint kind, uint pixel, uint sampleIndex, uint dimension, uint se
     return uniformFloat2(sampleWords(kind, pixel, sampleIndex, dimension, seed));
 }
 
-// Two numbers in [0, 1) for choices that gain nothing from stratification.
-vec2 sampleChoice(uint pixel, uint sampleIndex, uint dimension, uint seed) {
-    return uniformFloat2(pcg4d(uvec4(pixel, sampleIndex, dimension, seed)).zw);
+// A number in [0, 1) for a choice that gains nothing from stratification.
+float sampleChoice(uint pixel, uint sampleIndex, uint dimension, uint seed) {
+    return uniformFloat(pcg4d(uvec4(pixel, sampleIndex, dimension, seed)).z);
 }
 
 #endif

@@ -42,8 +42,8 @@ TEST(PairsAreTheWordsAsFloats) {
     }
 }
 
-TEST(ChoicesAreTheWordsThatPairsLeave) {
+TEST(ChoiceIsAWordThatPairsLeave) {
     uvec4 name = uvec4(randomUint(), randomUint(), randomUint(), randomUint());
     uvec4 words = pcg4d(name);
-    EXPECT_EQ(sampleChoice(name.x, name.y, name.z, name.w), vec2(words.zw >> 8u) * (1.0 / 16777216.0));
+    EXPECT_EQ(sampleChoice(name.x, name.y, name.z, name.w), float(words.z >> 8u) * (1.0 / 16777216.0));
 }
