@@ -19,13 +19,13 @@ class Renderer {
 
     void setCamera(const Camera& camera) { scene_.camera = camera; }
     void setDisplay(glm::vec2 display) { scene_.display = display; }
-    /// The scene-wide one.
+    /// Replaces the scene-wide reflectance.
     void setReflectance(const Reflectance& reflectance);
-    /// As many as there are. What emits may change, too.
+    /// Replaces all materials by the same number of others, which may emit where those did not.
     void setMaterials(std::vector<Material> materials);
 
-    /// The same bits as duolux::render of the same scene, whatever was rendered before. `control.tuning` has
-    /// no meaning here. Throws as that.
+    /// The same bits as duolux::render of the same scene, whatever was rendered before. Ignores
+    /// `control.tuning`. Throws as that function.
     RenderOutput render(const RenderSettings& settings, const RenderControl& control = {});
 
   private:

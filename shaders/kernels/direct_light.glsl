@@ -1,5 +1,5 @@
-// Light from the emitters in the path tracer: emission that paths meet, and direct light at their vertices by next-event
-// estimation with shadow rays (without, where nothing can be in between) or in closed form.
+// Emitted light in the path tracer: emission that a path meets, and direct light at its vertices, either by next-event
+// estimation (with shadow rays, unless nothing can block an emitter) or in closed form.
 
 // A shadow ray in flight.
 struct Shadow {

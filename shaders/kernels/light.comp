@@ -189,7 +189,7 @@ void main() {
                 starts = true;
             }
             if (connects) connect(connection, path, outgoing);
-            // One pair of random numbers for both kinds of lanes.
+            // Starting and scattering lanes share one draw, because Sobol points are expensive.
             uint dimension = starts ? sampleDimension(0u, 0u, kDimensionEmission)
                                     : sampleDimension(path.scatterings, 0u, kDimensionDirection);
             vec2 u = drawPair(path.stream, dimension);

@@ -12,10 +12,10 @@ const uint kDimensionPixel = 0u;       // place in the pixel, and the film's rou
 const uint kDimensionEmitter = 1u;     // point on an emitter
 const uint kDimensionDirection = 2u;   // scattered direction
 const uint kDimensionRoulette = 3u;    // whether a path continues
-const uint kDimensionCrossing = 4u;    // at which of the surfaces along a segment it does
-const uint kDimensionLobe = 5u;        // of the BSDF
+const uint kDimensionCrossing = 4u;    // from which of the surfaces along a segment it continues
+const uint kDimensionLobe = 5u;        // lobe of the BSDF
 const uint kDimensionEmission = 6u;    // direction from the emitter
-const uint kDimensionSide = 7u;        // of the emitter
+const uint kDimensionSide = 7u;        // side of the emitter
 const uint kDimensionConnection = 8u;  // whether a light path is connected to the camera, and the film's rounding
 
 // `scattering`: scattering events before the vertex, fewer than 65536; `crossing`: surfaces crossed since the last one,
