@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# cycles.sh speed|error [DUOLUX]: Duolux and Blender's Cycles (on the CPU) in turns on all cores, the same scenes
-# under `global` with 16 scattering events, as tables in Markdown. Needs Debian's `blender`; some 6 minutes on two
-# cores.
+# cycles.sh speed|error [DUOLUX]: compares Duolux with Blender's Cycles on the CPU. Both render the same
+# scenes under `global` with 16 scattering events, in turns and on all cores. Prints Markdown tables. Needs
+# Debian's `blender`; takes about 6 minutes on two cores.
 #
-# speed: seconds of rendering alone and of the whole process, lowest, **median** and highest of kRuns.
-# error: first, that both converge to one picture; then seconds of rendering to the RMSE that Cycles reaches at several
-#        spp (Duolux: interpolated between its own, on log scales), the RMSE taken from a reference by either program,
-#        whose seeds no other render has. A bias of either would make the two differ.
+# speed: seconds of rendering alone and of the whole process: lowest, **median** and highest of kRuns.
+# error: first checks that both converge to the same image; then compares the seconds of rendering to the RMSE
+#        that Cycles reaches at several spp (Duolux: interpolated between its own, on log scales). The RMSE is
+#        measured against a reference by either program, with seeds that no other render has. A bias of
+#        either program would make the two results differ.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 
@@ -20,18 +21,18 @@ fail() {
   exit 1
 }
 [[ $kMode == speed || $kMode == error ]] || fail "expected \`speed\` or \`error\`, then the program (build/duolux)"
-[[ -x $kDuolux ]] || fail "${2:-build/duolux} is not there: ./quickstart builds it"
-command -v blender >/dev/null || fail "blender is not there: apt-get install --no-install-recommends blender"
+[[ -x $kDuolux ]] || fail "${2:-build/duolux} not found: ./quickstart builds it"
+command -v blender >/dev/null || fail "blender not found: apt-get install --no-install-recommends blender"
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$kDuolux" make-scene two-spheres --triangles 500000 -o "$folder" >/dev/null
 
-# number KEY FILE: the value of a key of JSON with one key a line.
+# number KEY FILE: the value of a key in JSON with one key per line.
 number() { sed -n "s/.*\"$1\": *\([0-9.eE+-]*\).*/\1/p" "$2" | head -n 1; }
 
-# duolux SCENE SIZE SPP SEED IMAGE, cycles SCENE SIZE SPP SEED IMAGE FREE: render; print the seconds of rendering alone,
-# from the first sample to the last, and those of the whole process.
+# duolux SCENE SIZE SPP SEED IMAGE, cycles SCENE SIZE SPP SEED IMAGE FREE: render, and print the seconds of
+# rendering alone, from the first sample to the last, and those of the whole process.
 duolux() {
   local start=$EPOCHREALTIME
   "$kDuolux" render "$1" --preset global --bounces $kBounces --size "$2x$2" --spp "$3" --seed "$4" -o "$5" --quiet \
@@ -91,7 +92,7 @@ error() {
       echo "c $spp $seconds $(difference rmse "$out" "$ours") $(difference rmse "$out" "$theirs")" >>"$folder/runs"
     done
   done
-  # Fields: program, spp, seconds of rendering, of the process, RMSE from the reference by Duolux, by Cycles.
+  # Fields: program, spp, seconds of rendering, of the process, RMSE to Duolux's reference, to Cycles'.
   sort -k 1,1 -k 2,2n -k 3,3g "$folder/runs" | awk -v name="$name" '
     function finish() {
       if (!n) return

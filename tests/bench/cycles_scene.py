@@ -1,10 +1,10 @@
-# cycles_scene.py: renders a scene of Duolux under `global` by Cycles, run by Blender (3.4 and later):
+# cycles_scene.py: renders a Duolux scene under `global` with Cycles, in Blender 3.4 or later:
 #     blender -b --factory-startup -P cycles_scene.py -- SCENE.json OUT.exr SPP SEED SIZE BOUNCES FREE
-# SIZE: pixels of each side. BOUNCES: scattering events on a path. FREE: bounces before Russian roulette may end a path,
-# the first scattering event not counted (Cycles' min_light_bounces); 0, its default, is where Duolux begins, too.
+# SIZE: pixels of each side. BOUNCES: scattering events on a path. FREE: bounces before Russian roulette may
+# end a path, not counting the first scattering event (Cycles' min_light_bounces); its default 0 matches Duolux.
 #
-# Emitters must be rectangles, and become Cycles' own area lights just in front of their surfaces: as meshes they are
-# 1-5 % too dark at grazing angles in Cycles 3.4 (by Lambert's formula, with which its area lights agree).
+# Emitters must be rectangles. They become area lights just in front of their surfaces, because emitting
+# meshes are 1-5 % too dark at grazing angles in Cycles 3.4; its area lights agree with Lambert's formula.
 import json
 import math
 import os
@@ -36,7 +36,7 @@ def make_diffuse(material, albedo):
 
 
 def add_object(name, data, position, x, y, z):
-    """An object with these axes."""
+    """Adds an object with these axes."""
     item = bpy.data.objects.new(name, data)
     item.matrix_world = Matrix.Translation(position) @ Matrix((x, y, z)).transposed().to_4x4()
     bpy.context.scene.collection.objects.link(item)
@@ -44,7 +44,7 @@ def add_object(name, data, position, x, y, z):
 
 
 def add_lamp(mesh, radiance, seen):
-    """An area light on a rectangle; `seen` by the camera or not."""
+    """Adds an area light in place of a rectangle. `seen`: the camera sees it."""
     corner, *others = (v.co for v in mesh.vertices)
     edge1, edge2, diagonal = sorted((p - corner for p in others), key=lambda edge: edge.length)
     if (edge1 + edge2 - diagonal).length > 1e-4 * diagonal.length or len(others) != 3:
@@ -54,21 +54,21 @@ def add_lamp(mesh, radiance, seen):
     lamp.shape = "RECTANGLE"
     lamp.size, lamp.size_y = edge1.length, edge2.length
     lamp.color = radiance
-    lamp.energy = 4.0 * edge1.length * edge2.length  # of radiance 1
+    lamp.energy = 4.0 * edge1.length * edge2.length  # radiance 1
     x, z = edge1.normalized(), -normal  # it shines along -z
     middle = corner + diagonal / 2.0 + normal * (diagonal.length * 1e-5)
     add_object(mesh.name, lamp, middle, x, z.cross(x), z).visible_camera = seen
 
 
 def load(file):
-    """Blender's scene becomes that of the file."""
+    """Replaces Blender's scene by that of the file."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with open(file) as text:
         scene = json.load(text)
     materials = {}
     for item in scene["objects"]:
         obj = os.path.join(os.path.dirname(file), item["mesh"])
-        bpy.ops.wm.obj_import(filepath=obj, forward_axis="Y", up_axis="Z")  # as they are
+        bpy.ops.wm.obj_import(filepath=obj, forward_axis="Y", up_axis="Z")  # unchanged coordinates
         materials.update(read_mtl(os.path.splitext(obj)[0] + ".mtl"))
     for material in bpy.data.materials:
         make_diffuse(material, materials[material.name][0])
@@ -109,7 +109,7 @@ def render(output, spp, seed, size, bounces, free):
     cycles.max_bounces = cycles.diffuse_bounces = bounces - 1  # the first scattering event is not a bounce for Cycles
     cycles.min_light_bounces = free
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
-    cycles.pixel_filter_type = "BOX"  # of one pixel
+    cycles.pixel_filter_type = "BOX"  # one pixel wide
     if hasattr(cycles, "use_light_tree"):  # there is one emitter
         cycles.use_light_tree = False
     bpy.ops.render.render(write_still=True)

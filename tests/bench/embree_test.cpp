@@ -16,12 +16,12 @@
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
 
-// What duolux-peers compares with does the same work.
+// The Embree programs that duolux-peers measures compute the same results as Duolux.
 
 namespace duolux::test {
 namespace {
 
-/// The reference judges ours, too: tests/statistical/cornell_test.cpp.
+/// The same reference also tests Duolux's path tracer, in tests/statistical/cornell_test.cpp.
 TEST(Embree, PathTracerMatchesTheReference) {
     LoadedScene scene = cornellBox();
     scene.reflectance = *presetReflectance("global");
@@ -34,7 +34,7 @@ TEST(Embree, PathTracerMatchesTheReference) {
     settings.samples = 2048;
     reference::Estimates expected = reference::trace(scene, settings);
     for (reference::Estimate& pixel : expected.pixels) {
-        // The invisible component, which Embree's path tracer leaves out.
+        // Embree's path tracer leaves out the invisible component.
         std::ranges::fill(pixel.mean[0], 0.0);
         std::ranges::fill(pixel.variance[0], 0.0);
     }
@@ -68,7 +68,7 @@ TEST(Embree, RaysMeetWhatOursMeet) {
                                  std::abs(ours[i].t - theirs[i]) > 1e-4f * (1.0f + ours[i].t);
                 differences += hit != (theirs[i] >= 0.0f) || far ? 1 : 0;
             }
-            // Rays within rounding of an edge, and those that start in a corner.
+            // Excepts rays within rounding error of an edge, and rays that start in a corner.
             EXPECT_LE(static_cast<double>(differences), 2e-3 * static_cast<double>(ours.size()))
                 << name << " " << set.name;
         }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# growth.sh [DUOLUX-PEERS]: how rays per second fall from 10^4 to 10^7 triangles (two spheres), those of Duolux and of
-# Embree in turns, as a table in Markdown: lowest, **median**, highest of kRuns, and how many times slower than at 10^4
-# triangles. Needs what `cmake --build --preset release --target duolux-peers` builds, and 4 GB of memory; some 3 minutes on
-# two cores.
+# growth.sh [DUOLUX-PEERS]: measures how rays per second decrease from 10^4 to 10^7 triangles (two spheres),
+# with Duolux and Embree in turns. Prints a Markdown table: lowest, **median** and highest of kRuns, and the
+# slowdown relative to 10^4 triangles. Needs the target duolux-peers (`cmake --build --preset release --target
+# duolux-peers`) and 4 GB of memory; takes about 3 minutes on two cores.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 
@@ -10,7 +10,7 @@ readonly kPeers=${1:-build/release/host/tools/peers/duolux-peers}
 readonly kRuns=9
 
 [[ -x $kPeers ]] || {
-  echo "growth.sh: $kPeers is not there: cmake --build --preset release --target duolux-peers" >&2
+  echo "growth.sh: $kPeers not found: cmake --build --preset release --target duolux-peers" >&2
   exit 1
 }
 

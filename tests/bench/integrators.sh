@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# integrators.sh [DUOLUX [SPP]]: variance times time of both integrators over the asset scenes and presets, as a table in
-# Markdown. The variance is that of a pixel's displayed channel, mean over the image: half the mean square difference of
-# renders with different seeds, over kPairs pairs that share none. The two integrators take turns, because machines vary.
-# Less is better; the last column tells how many times as long `path` takes for the same noise.
+# integrators.sh [DUOLUX [SPP]]: prints variance times time of both integrators as a Markdown table. The
+# variance is that of a displayed channel of a pixel, averaged over the image: half the mean square difference
+# of two renders, over kPairs pairs with different seeds. The integrators take turns, because the speed of
+# machines varies. Lower is better; the last column is how many times as long `path` takes for the same noise.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 
@@ -15,7 +15,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$kDuolux" make-scene two-spheres --triangles 500000 -o "$folder" >/dev/null
 
-# number KEY FILE: the value of a key of JSON with one key a line.
+# number KEY FILE: the value of a key in JSON with one key per line.
 number() { sed -n "s/.*\"$1\": *\([0-9.eE+-]*\).*/\1/p" "$2" | head -n 1; }
 
 # measure SCENE PRESET INTEGRATOR SEED: renders with seeds SEED and SEED + 1; appends variance and seconds of one render.

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# layouts.sh [OPTION...]: what a device makes of every layout and kernel (duolux bench --help), as a table in Markdown. The
-# options are those of `duolux bench` but --repeat, --only, --layout, --kernel, --json and --quiet, for example --device gpu.
-# Millions of rays and samples a second of wall time, medians over ROUNDS (5) rounds, in each of which all take turns, because
-# machines vary; then what diffuse rays read, and how busy lanes are with nodes and pairs of triangles for them. What a device
-# does not have is left out, and why is told on standard error. Nothing is built: DUOLUX (build/duolux) is measured, on SCENES.
+# layouts.sh [OPTION...]: measures every layout and kernel on a device (duolux bench --help), and prints a
+# Markdown table. Takes the options of `duolux bench` except --repeat, --only, --layout, --kernel, --json and
+# --quiet, for example --device gpu. Rates are millions of rays or samples per second of wall time: medians
+# over ROUNDS (5) rounds. All combinations take turns in each round, because the speed of machines varies. The
+# last two columns are for diffuse rays: the rate at which they read memory, and how busy lanes are with nodes
+# and with pairs of triangles. Combinations that the device lacks are left out, with the reason on standard
+# error. Builds nothing: measures DUOLUX (build/duolux) on SCENES.
 set -euo pipefail
 readonly kHere=$(dirname "$(readlink -f "$0")")
 
@@ -15,7 +17,7 @@ fi
 readonly kDuolux=$(readlink -f "${DUOLUX:-$kHere/../../build/duolux}")
 readonly kRounds=${ROUNDS:-5}
 read -r -a scenes <<<"${SCENES:-cornell two-spheres-500000}"
-[[ -x $kDuolux ]] || { echo "layouts.sh: $kDuolux is not there: build it by ./quickstart, or set DUOLUX" >&2; exit 2; }
+[[ -x $kDuolux ]] || { echo "layouts.sh: $kDuolux not found: build it with ./quickstart, or set DUOLUX" >&2; exit 2; }
 [[ $kRounds =~ ^[1-9][0-9]*$ ]] || { echo "layouts.sh: ROUNDS is $kRounds; expected a whole number from 1" >&2; exit 2; }
 readonly kColumns=(rays/primary rays/diffuse rays/shadow rays/crossings render/global/path render/local/path)
 
@@ -25,7 +27,7 @@ trap 'rm -rf "$folder"' EXIT
 only=()
 for column in "${kColumns[@]}"; do only+=(--only "$column"); done
 
-# measure LAYOUT KERNEL [OPTION...]: one run; appends a line "SCENE/BENCHMARK RATE" for each result.
+# measure LAYOUT KERNEL [OPTION...]: runs once; appends a line "SCENE/BENCHMARK RATE" for each result.
 measure() {
   local layout=$1 kernel=$2
   shift 2
@@ -43,7 +45,7 @@ measure() {
 # text KEY N: the N-th value of a key in the newest run's JSON.
 text() { sed -n "s/^ *\"$1\": \"\(.*\)\",\?$/\1/p" "$folder/run.json" | sed -n "$2p"; }
 
-# median FILE NAME: of the rates in a file, or a dash.
+# median FILE NAME: the median rate of NAME in a file, or a dash.
 median() {
   awk -v name="$2" '$1 == name { print $2 }' "$1" | sort -g |
     awk '{ v[NR] = $1 } END { if (NR == 0) print "-"; else printf "%.3g\n", (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'

@@ -17,7 +17,7 @@ namespace {
 
 using namespace duolux;
 
-/// Two spheres of about so many triangles, as a file and as a scene; made once.
+/// Two spheres with about this many triangles, as a file and as a scene; generated once.
 struct TwoSpheres {
     std::filesystem::path file;
     LoadedScene scene;

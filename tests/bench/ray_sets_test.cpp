@@ -35,7 +35,7 @@ TEST(BuiltinScenes, AreThoseOfTheAssets) {
         EXPECT_FALSE(isBuiltinScene(name)) << name;
 }
 
-/// Each ray by all triangles in double precision: the nearest, any, and all of them.
+/// Compares each ray set with brute force in double precision: the nearest hit, any hit, and all crossings.
 class RaySets : public testing::TestWithParam<const char*> {};
 
 /// Rays of the set for which the kernel and brute force do not agree.
@@ -82,8 +82,8 @@ TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
         for (const RaySet& set : sets) {
             TraceKernel kernel(device(), deviceScene, set.mode, set.rays);
             kernel.run(2);
-            // A ray within rounding of an edge meets one triangle, both or none; and some start in a corner
-            // of the room, on the other wall but for rounding.
+            // A ray within rounding error of an edge hits one triangle, both or none; and some rays start in
+            // a corner of the room, within rounding error of another wall.
             EXPECT_LE(static_cast<double>(differences(set, kernel.hits(), scene.geometry)),
                       0.01 * static_cast<double>(set.rays.size()))
                 << set.name << ", " << nameOf(tuning);
@@ -91,7 +91,7 @@ TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
     }
 }
 
-/// Each surface three times: all are met, and no walk ends at a place where two are.
+/// With three copies of each surface, a ray crosses all copies, and continues behind coincident ones.
 TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
     const LoadedScene once = builtin(GetParam());
     LoadedScene thrice = once;
@@ -131,7 +131,7 @@ TEST_P(RaySets, CountsAreThoseOfTheRays) {
         TraceKernel counting(device(), deviceScene, set.mode, set.rays, true);
         counting.run();
         const shared::TraceCounts counts = counting.counts();
-        EXPECT_GE(counts.nodes, set.rays.size()) << set.name;  // the root at least
+        EXPECT_GE(counts.nodes, set.rays.size()) << set.name;  // at least the root
         EXPECT_GT(counts.pairs, 0u) << set.name;
         EXPECT_LE(counts.nodes, std::uint64_t{counts.nodeSteps} * lanes) << set.name;
         EXPECT_LE(counts.pairs, std::uint64_t{counts.pairSteps} * lanes) << set.name;
