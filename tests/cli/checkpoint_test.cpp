@@ -6,7 +6,7 @@
 
 #include "tests/cli/run_duolux.h"
 
-// Renders in parts, as a user runs them, give bytewise identical files to a single render.
+// Partial renders from the command line give files that are bitwise identical to those of a single render.
 
 namespace duolux::test {
 namespace {
@@ -63,7 +63,7 @@ TEST_P(CheckpointCommands, OtherFilesAreNotReplaced) {
 
 TEST_P(CheckpointCommands, AnInterruptedRenderGoesOnAsIfNothingHadHappened) {
     ProgramResult interruptedRender;
-    // As late as it takes for there to be samples: on a busy machine the first ones take seconds.
+    // Doubles the delay until there are samples: on a busy machine, the first ones take seconds.
     for (auto delay = std::chrono::milliseconds(700); !exists("state") && delay < std::chrono::seconds(60);
          delay *= 2) {
         interruptedRender = render({"--spp", "100000", "--checkpoint", "state", "-o", "some.png"},

@@ -14,7 +14,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// `duolux devices` where the loader looks for drivers only in this manifest.
+/// Runs `duolux devices` with a Vulkan loader that looks for drivers only in this manifest.
 ProgramResult devicesWith(const TemporaryFolder& folder, const std::string& manifest) {
     return runProgram(DUOLUX_EXECUTABLE, folder.path(), {"devices"}, std::nullopt, std::chrono::seconds(60),
                       {"VK_DRIVER_FILES=" + manifest, "VK_ICD_FILENAMES=" + manifest});
@@ -51,7 +51,7 @@ TEST(NoDriver, SaysWhatToInstallWhereThereIsNone) {
                                       "mesa-vulkan-drivers, "));
 }
 
-// AddressSanitizer reserves more address space than any limit leaves.
+// AddressSanitizer reserves more address space than this limit allows.
 #ifndef __SANITIZE_ADDRESS__
 TEST(NoDriver, TooLittleAddressSpaceIsCalledSo) {
     const TemporaryFolder folder;

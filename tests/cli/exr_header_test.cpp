@@ -11,7 +11,7 @@
 namespace duolux::test {
 namespace {
 
-/// Reads the header as `exrinfo -s` does: an attribute that OpenEXR reserves must have the type it asks for.
+/// Reads the header as `exrinfo -s` does: reserved attributes must have OpenEXR's types.
 exr_result_t readStrictly(const std::filesystem::path& file) {
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
     settings.flags = EXR_CONTEXT_FLAG_STRICT_HEADER;

@@ -1,4 +1,4 @@
-// --aov: layers in EXR files and checkpoints, as a user asks for them.
+// --aov on the command line: layers in EXR files and checkpoints.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -65,7 +65,7 @@ TEST_F(Layers, NormalsAreInTheExr) {
     EXPECT_THAT(normalAt(24, 30), isNear(0, 1, 0));
     EXPECT_THAT(normalAt(0, 16), isNear(0, 0, 0)) << "beside the box";
 
-    // What else is written does not change.
+    // The other files do not change.
     ASSERT_EQ(render({"-o", "b.exr", "-o", "b.png", "-o", "b.pfm"}).status, 0);
     EXPECT_EQ(bytes("a.png"), bytes("b.png"));
     EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
@@ -87,7 +87,7 @@ TEST_F(Layers, PartsOfARenderGiveTheSameFile) {
     ASSERT_EQ(render({"--aov", "normal", "--resume", "0", "-o", "resumed.exr"}).status, 0);
     EXPECT_EQ(bytes("resumed.exr"), bytes("whole.exr"));
 
-    // With other layers nothing fits.
+    // Checkpoints with other layers are refused.
     expectRefused(render({"--resume", "0", "-o", "none.exr"}), 3,
                   "0: layers: is normal, but none of this render");
     ASSERT_EQ(render({"--sample-range", "3:20", "--checkpoint", "plain", "-o", "part.png"}).status, 0);
@@ -100,7 +100,7 @@ TEST_F(Layers, PartsOfARenderGiveTheSameFile) {
 }
 
 TEST_F(Layers, AreRefusedWhereTheyWouldBeLost) {
-    // Renders that would take hours.
+    // These renders would take hours.
     const char* many = "16777216";
     expectRefused(render({"--aov", "normals", "-o", "a.exr"}, many), 2,
                   R"(--aov normals: there is no layer "normals"; did you mean "normal"?)");

@@ -16,7 +16,7 @@ using testing::Not;
 
 class LostDevice : public testing::Test {
   protected:
-    /// Renders the Cornell box on a device that fails as tests/support/fault_layer says.
+    /// Renders the Cornell box on a device with a fault, as specified for tests/support/fault_layer.
     ProgramResult render(const std::string& fault, std::vector<std::string> arguments) {
         const std::vector<std::string> common{
             "render", DUOLUX_ASSETS "/cornell/cornell.json", "--device", "cpu", "--size", "64x48", "--spp",
@@ -33,7 +33,7 @@ class LostDevice : public testing::Test {
 TEST_F(LostDevice, LeavesAPictureAndACheckpointToGoOnFrom) {
     for (const char* integrator : {"path", "light"}) {
         ASSERT_EQ(render("", {"--integrator", integrator, "-o", "whole.pfm"}).status, 0);
-        // After the first look, which takes more submissions with the light tracer.
+        // Fails after the first look at the image, which takes more submissions with the light tracer.
         const ProgramResult result =
             render(integrator == std::string("path") ? "DUOLUX_FAULT_LOST=5" : "DUOLUX_FAULT_LOST=7",
                    {"--integrator", integrator, "-o", "part.exr", "-o", "part.png", "--checkpoint", "a.part",
@@ -47,7 +47,7 @@ TEST_F(LostDevice, LeavesAPictureAndACheckpointToGoOnFrom) {
         EXPECT_GT(report["samples"]["taken"], 0);
         EXPECT_EQ(report["samples"]["complete"], false);
         EXPECT_THAT(report["warnings"].dump(), HasSubstr("ErrorDeviceLost"));
-        // Nothing is counted that is not there: the rest makes the same bits.
+        // The checkpoint counts only completed samples: the resumed render gives the same bits.
         ASSERT_EQ(render("", {"--integrator", integrator, "--resume", "a.part", "-o", "rest.pfm"}).status, 0);
         EXPECT_TRUE(contentsOf(folder_ / "rest.pfm") == contentsOf(folder_ / "whole.pfm")) << integrator;
     }

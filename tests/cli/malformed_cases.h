@@ -10,8 +10,8 @@ namespace duolux::test {
 /// A scene that cannot be used: every command that loads `files[0]` must refuse it.
 struct MalformedScene {
     const char* name;
-    std::vector<std::pair<std::string, std::string>> files;  ///< name and content; the first is the scene
-    std::vector<std::string> words;  ///< that the error line must hold: file, place, problem, remedy
+    std::vector<std::pair<std::string, std::string>> files;  ///< name and content; the scene comes first
+    std::vector<std::string> words;  ///< in the error line: file, place, problem, remedy
     bool onlyIfStrict = false;       ///< loads without --strict
 };
 

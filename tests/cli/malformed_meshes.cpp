@@ -12,13 +12,13 @@ MalformedScene obj(const char* name, const std::string& text, std::vector<std::s
     return {name, {{"mesh.obj", text}}, std::move(words)};
 }
 
-/// Refused only by --strict.
+/// A case that only --strict refuses.
 MalformedScene strict(MalformedScene scene) {
     scene.onlyIfStrict = true;
     return scene;
 }
 
-/// The MTL of a mesh that is right.
+/// A valid mesh with this MTL.
 MalformedScene mtl(const char* name, const std::string& text, std::vector<std::string> words) {
     return {
         name,

@@ -14,7 +14,7 @@ MalformedScene json(const char* name, const std::string& text, std::vector<std::
             std::move(words)};
 }
 
-/// Right but for the given keys.
+/// A valid scene, except for the given keys.
 MalformedScene keys(const char* name, const std::string& more, std::vector<std::string> words) {
     return json(name, R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], )" + more + "}", std::move(words));
 }

@@ -1,4 +1,4 @@
-// OpenGL's renderer, and the experiment that compares with it, as a user runs them.
+// duolux-gl, and the experiment that compares with it (duolux-paper), from the command line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ class OpenGl : public testing::Test {
     TemporaryFolder folder_;
 };
 
-// With vertices that are few here five lights are within 0.5 %; per fragment and with many
-// lights only silhouettes are left, where 64 passes and 64 samples fall on different places.
+// With the few vertices of this scene, five lights agree within 0.5 %. With lighting per fragment and many
+// lights, only silhouettes differ, where the 64 passes and the 64 samples have different positions.
 TEST_F(OpenGl, LocalReproducesIt) {
     const RadianceImage transport = local("64");
     EXPECT_LT(compare(drawn({"--lights", "5"}), transport, {}).epsMean, 0.005);
@@ -59,7 +59,7 @@ TEST_F(OpenGl, LocalReproducesIt) {
     EXPECT_LT(many.epsMean, five.epsMean);
 }
 
-// 8x8 lights do not fit OpenGL's eight: they are added in batches.
+// OpenGL has eight lights, so 8x8 lights are drawn in batches.
 TEST_F(OpenGl, BatchesOfLightsAddUp) {
     const RadianceImage fixed = drawn({"--lights", "8x8", "--passes", "4"});
     const RadianceImage fragment = drawn({"--lights", "8x8", "--passes", "4", "--lighting", "per-fragment"});
@@ -68,7 +68,7 @@ TEST_F(OpenGl, BatchesOfLightsAddUp) {
     EXPECT_LT(c.averageColour, 0.002);
 }
 
-// Emission is added once, not with each batch; of two coincident surfaces, one is drawn.
+// Emission is added once, not with each batch; only one of two coincident surfaces is drawn.
 TEST_F(OpenGl, BatchesAddNothingTwice) {
     std::string text = contentsOf(folder_ / "two_spheres.json");
     const std::string dark = "\"visible\": [0, 0, 0]";

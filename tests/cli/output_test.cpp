@@ -41,7 +41,7 @@ class Outputs : public testing::Test {
         EXPECT_EQ(result.status, 2);
         EXPECT_THAT(result.err, HasSubstr(words));
     }
-    /// The one file whose name begins so.
+    /// The only file whose name starts with `begin`.
     fs::path fileNamed(const std::string& begin) const {
         for (const auto& entry : fs::directory_iterator(folder_.path())) {
             if (entry.path().filename().string().starts_with(begin)) return entry.path();
@@ -84,7 +84,7 @@ TEST_F(Outputs, MayNotTakeThePlaceOfAnythingThatIsRead) {
 }
 
 TEST_F(Outputs, MayNotTakeThePlaceOfOneAnother) {
-    fs::create_symlink("a.png", folder_ / "link.png");  // to a file that is not there yet
+    fs::create_symlink("a.png", folder_ / "link.png");  // to a file that does not exist yet
     expectRefused({"q.obj", "-o", "a.png", "-o", "link.png"}, "-o link.png: is also written by -o");
     expectRefused({"q.obj", "-o", "a.png", "--report", "./a.png"}, "--report ./a.png: is also written by -o");
 }

@@ -161,8 +161,7 @@ TEST_F(RenderCommand, ReportOfLightPaths) {
     EXPECT_THAT(metadata, HasSubstr("integrator"));
 }
 
-// Light paths cannot be connected to the camera from a mirror, so that its reflections would be missing
-// silently.
+// Light paths cannot connect a mirror to the camera, so its reflections are missing, which needs a warning.
 TEST_F(RenderCommand, SaysThatLightPathsDoNotShowMirrors) {
     const auto sceneWith = [&](const char* roughness) {
         const std::filesystem::path scene = folder_.path() / "scene.json";
@@ -202,7 +201,7 @@ TEST_F(RenderCommand, SaysSoWhenTheBounceLimitCutsAGrowingSeries) {
     auto single = settings;
     single.insert(single.end(), {"--preset", "one-bounce", "--bounces", "4"});
     EXPECT_EQ(render(single).err, "");
-    // Nothing more could come.
+    // There is no light beyond the first bounce.
     for (const char* preset : {"one-bounce", "local"}) {
         auto first = settings;
         first.insert(first.end(), {"--preset", preset, "--bounces", "1"});
@@ -211,8 +210,8 @@ TEST_F(RenderCommand, SaysSoWhenTheBounceLimitCutsAGrowingSeries) {
 }
 
 TEST_F(RenderCommand, SeesGrowthWhereOnlyEveryOtherBounceReachesTheCamera) {
-    // The camera looks down at a floor, above it are six quads and a lamp: light comes from above alone, so
-    // that only vertices met from above, the first, third, fifth ... of a path, are lit.
+    // The camera looks down at a floor, with six quads and a lamp above it. All light comes from above, so a
+    // path receives direct light only at vertices reached from above: the first, third, fifth, and so on.
     std::ofstream obj(folder_ / "stack.obj");
     obj << "mtllib stack.mtl\n";
     for (const double y : {-1.0, 0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 3.0}) {
@@ -242,7 +241,7 @@ TEST_F(RenderCommand, TimeLimitStopsCleanly) {
     EXPECT_THAT(report["warnings"].dump(), HasSubstr("stopped at the time limit"));
     EXPECT_FALSE(report["samples"]["complete"]);
     EXPECT_GE(report["samples"]["taken"], 128 * 128);  // every pixel has at least one
-    // Pixels have different numbers of samples, and neither half is dark for it.
+    // Pixels may have different numbers of samples, but neither half of the image is black.
     const RadianceImage picture = image("a.pfm");
     double lower = 0.0;
     double upper = 0.0;

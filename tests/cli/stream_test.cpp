@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 class Streams : public testing::Test {
   protected:
     void SetUp() override {
-        // Nothing emits, which gives a warning.
+        // There is no emitter, which causes a warning.
         std::ofstream(folder_ / "q.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
     }
 
@@ -97,7 +97,7 @@ TEST_F(Signals, KeepTheWorkOfARender) {
     }
 }
 
-/// As timeout(1) does, which signals the process and then its group.
+/// Like timeout(1), which signals the process and then its group.
 TEST_F(Signals, TwiceAtOnceIsOnce) {
     const ProgramResult result = shell(
         "$R --spp 10000000 --time-limit 60 & sleep 4; kill -TERM $!; kill -TERM $!; sleep 0.01; kill -TERM "

@@ -16,13 +16,13 @@ using testing::Not;
 
 constexpr const char* kMtl =
     "newmtl white\nKd .8 .8 .8\nnewmtl lamp\nKd .8 .8 .8\nKe 20 20 20\nnewmtl dim\nKe 1e-4 1e-4 1e-4\n";
-/// A floor of 4 x 4, its front up.
+/// A floor of 4 x 4 that faces up.
 constexpr const char* kFloor = "usemtl white\nv -2 0 -2\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nf -4 -3 -2 -1\n";
-/// Above it, its front down or up.
+/// A square above it that faces down, or up.
 constexpr const char* kDown = "v -.5 1 -.5\nv .5 1 -.5\nv .5 1 .5\nv -.5 1 .5\nf -4 -3 -2 -1\n";
 constexpr const char* kUp = "v -.5 1 -.5\nv .5 1 -.5\nv .5 1 .5\nv -.5 1 .5\nf -1 -2 -3 -4\n";
 
-/// The sides of a box, their fronts inside.
+/// A box that faces inwards.
 std::string box(const std::string& x, const std::string& low, const std::string& high) {
     std::string text = "usemtl white\n";
     for (const std::string& y : {low, high}) {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-/// The fast ones first.
+/// Fast tests first.
 constexpr const char* kTests[] = {"film_test", "render_test", "statistical_test"};
 
 /// All files except hidden ones and build output, relative to the root.

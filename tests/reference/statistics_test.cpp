@@ -38,7 +38,7 @@ TEST(Statistics, ChiSquareMergesBinsOfLowExpectation) {
     EXPECT_NEAR(off.statistic, 8.0, 1e-12);
     EXPECT_NEAR(off.p, std::exp(-4.0), 1e-12);
     EXPECT_EQ(chiSquare(std::vector<double>{9.0, 1.0}, std::vector<double>{10.0, 0.0}).p, 0.0);
-    // Two bins of 8, and 4 that are left over: these go to the last.
+    // Two bins of 8; the remaining 4 are merged into the last bin.
     const ChiSquare rest =
         chiSquare(std::vector<double>{4.0, 4.0, 4.0, 0.0, 8.0}, std::vector<double>(5, 4.0));
     EXPECT_EQ(rest.degrees, 1.0);
@@ -64,8 +64,8 @@ TEST(LambertPolygon, ClosedForms) {
     const double expected = std::atan(1.0 / std::sqrt(2.0)) / std::sqrt(2.0);
     EXPECT_NEAR(lambertPolygon(Vec3(0.0), {0, 1, 0}, square), expected, 1e-12);
     EXPECT_NEAR(lambertPolygon(Vec3(0.0), {0, -1, 0}, square), 0.0, 1e-12);
-    // A polygon that is nearly the whole hemisphere: pi. Straddling the horizon of a vertical receiver: half
-    // of it.
+    // A polygon that covers nearly the whole hemisphere: pi. A vertical receiver, whose horizon cuts the
+    // polygon, sees half of it.
     const std::array<Vec3, 4> sky = {{{-1e6, 1, -1e6}, {1e6, 1, -1e6}, {1e6, 1, 1e6}, {-1e6, 1, 1e6}}};
     EXPECT_NEAR(lambertPolygon(Vec3(0.0), {0, 1, 0}, sky), std::numbers::pi, 1e-5);
     EXPECT_NEAR(lambertPolygon(Vec3(0.0), {1, 0, 0}, sky), std::numbers::pi / 2, 1e-5);
@@ -95,10 +95,10 @@ std::vector<RadianceImage> noise(double bias, double ripple) {
 TEST(Judge, AcceptsNoiseAndSeesBias) {
     const reference::Estimates one = uniformImage(16, 16, {{{0.0, 1.0}, {0.0, 1.0}, {0.0, 1.0}}});
     EXPECT_TRUE(judge(noise(0.0, 0.0), one).agrees) << judge(noise(0.0, 0.0), one).report;
-    // The standard error of a pixel is between 0.0016 and 0.025, and that of the image 0.0009.
+    // The standard error of a pixel is between 0.0016 and 0.025, that of the image 0.0009.
     EXPECT_FALSE(judge(noise(0.01, 0.0), one).agrees);
     EXPECT_TRUE(judge(noise(0.01, 0.0), one, {.relative = 0.011}).agrees);
-    // Too small for any pixel, and cancelling in every block.
+    // A bias too small for any pixel, which cancels in every block.
     const Agreement ripple = judge(noise(0.0, 0.006), one);
     EXPECT_FALSE(ripple.agrees) << ripple.report;
 }

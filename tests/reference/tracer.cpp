@@ -148,7 +148,7 @@ class Tracer {
         light = light + geometry * (weight * surfaceOf(emitter).emission);
     }
 
-    /// A point of the unit sphere that touches the surface: cosine-distributed about the normal.
+    /// Uniform points on the unit sphere tangent to the surface have cosine-distributed directions.
     static Vec3 cosineDirection(const Vec3& normal, Walker& walker) {
         for (;;) {
             const Vec3 inCube{2.0 * walker.next() - 1.0, 2.0 * walker.next() - 1.0,

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# harness_elsewhere_test.sh CMAKE SOURCE_DIR: another project takes the harness of shader tests as tests/README.md says.
+# harness_elsewhere_test.sh CMAKE SOURCE_DIR: another project uses the harness as tests/README.md says.
 set -euo pipefail
 cmake=$1 source=$2
 work=$(mktemp -d)
@@ -11,7 +11,7 @@ for part in tests/shader/harness tests/support host/vk host/base shaders/shared/
   mkdir -p "duolux/$(dirname $part)"
   cp -r "$source/$part" "duolux/$part"
 done
-# The block of the page that is a CMakeLists.txt.
+# The CMakeLists.txt in that file.
 sed -n '/^    cmake_minimum_required/,/^    duolux_discover_glsl_tests/s/^    //p' "$source/tests/README.md" >CMakeLists.txt
 mkdir shaders shader_tests
 cat >shaders/square.glsl <<EOF
@@ -34,7 +34,7 @@ ctest --test-dir build >log 2>&1 && fail "a test that fails passes"
 cat log
 grep -q 'SquareGlsl.IsNotNegative .* *Passed' log || fail "a test that passes fails"
 grep -q '1 tests failed out of 2' log || fail "there are not two tests, of which one fails"
-# Nothing is built for a new test; CTest must know of it all the same.
+# A new test needs no build, but CTest must list it.
 sed -i 's/IsWrong/IsRenamed/' shader_tests/square_test.glsl
 ctest --test-dir build >log 2>&1 && fail "a renamed test that fails passes"
 grep -q 'SquareGlsl.IsRenamed' log || fail "CTest does not know the new name"

@@ -9,7 +9,7 @@ fail() { echo "FAILED: $1" >&2 && exit 1; }
 "$cmake" --install "$build" --prefix "$work/prefix" --strip >"$work/install.log" || fail "cmake --install"
 duolux=$work/prefix/bin/duolux
 [[ -x $duolux ]] || fail "there is no bin/duolux in the prefix"
-# A sanitizer puts the names of source files into the program, to report them.
+# A sanitizer stores the names of source files in the program for its reports.
 if grep -qa __asan_init "$duolux"; then source=/no/such/tree build=/no/such/tree; fi
 if grep -qaF "$source" "$duolux"; then fail "the installed program names the source tree"; fi
 if grep -qaF "$build" "$duolux"; then fail "the installed program names the build tree"; fi

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# quickstart_test.sh SOURCE_DIR: what ./quickstart says of itself, without building anything.
+# quickstart_test.sh SOURCE_DIR: tests the usage messages of ./quickstart, without building anything.
 set -euo pipefail
 quickstart=$1/quickstart
 fail() { echo "FAILED: $1" >&2 && exit 1; }
@@ -15,7 +15,7 @@ for words in "--nonsense" "test more" "help me"; do
   [[ $message == "usage: ./quickstart"* ]] || fail "'$words' prints no usage on standard error"
 done
 
-# Without apt-get it says what to install, and does nothing.
+# Without apt-get, it only says what to install.
 empty=$(mktemp -d)
 trap 'rm -rf "$empty"' EXIT
 for tool in bash env dirname readlink; do ln -s "$(command -v $tool)" "$empty/$tool"; done
