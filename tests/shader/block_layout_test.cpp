@@ -8,15 +8,15 @@
 #include "tests/shader/layout_words.h"
 #include "tests/support/device.h"
 
-// Structures in blocks: the host writes a sentinel into every word, and the device reads each by name through
-// the same kind of block as the kernels; and vice versa.
+// Structures in blocks: the host writes a sentinel into every word, and the device reads each word by name
+// through the same kind of block as the kernels; and vice versa.
 
 namespace duolux::test {
 namespace {
 
-constexpr std::size_t kStructures = 3;  // in storage, so that their stride counts
+constexpr std::size_t kStructures = 3;  // in storage buffers, to test the stride
 
-/// Runs `statements` once, with `declarations` before and `uint words[]` at binding 1; returns the latter.
+/// Runs `statements` once, after `declarations` and with `uint words[]` at binding 1; returns `words`.
 template <typename Push>
 std::vector<std::uint32_t> run(const std::string& declarations, const std::string& statements,
                                const std::vector<Binding>& inputs, const Push& push, std::size_t words) {
@@ -59,7 +59,7 @@ void expectSentinels(const std::vector<std::uint32_t>& seen, std::size_t structu
     }
 }
 
-/// Every word of the structure has a name, and there is no other.
+/// The names cover every word of the structure exactly once.
 template <typename S>
 void expectComplete() {
     std::set<std::size_t> offsets;
@@ -103,7 +103,7 @@ void expectArrivesByStorage(const std::string& name) {
                        kStructures);
 }
 
-/// The device writes every word by its name, the host reads the structures.
+/// The device writes every word by name, and the host reads the structures.
 template <typename S>
 void expectReturnsByStorage(const std::string& name) {
     SCOPED_TRACE(name);

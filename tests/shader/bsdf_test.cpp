@@ -10,7 +10,7 @@
 #include "tests/shader/mirror_types.h"
 #include "tests/shader/oracles.h"
 
-// BSDFs: integrals of the device's own functions over directions, the density of samples, and both oracles.
+// BSDFs: integrals of the device's functions over directions, the density of samples, and both oracles.
 
 namespace duolux::test {
 namespace {
@@ -32,7 +32,7 @@ ShaderLibrary diffuseOnly() {
     return ShaderLibrary("shaders/lib/bsdf.glsl").constant(shared::kSpecLobes, shared::kLobeDiffuse);
 }
 
-/// The normal is z, so that directions are given in the frame.
+/// The normal is z, so directions are in the local frame.
 const BsdfFrame kFlat{{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f}};
 
 const std::vector<glm::vec3> kOutgoing{{0.0f, 0.0f, 1.0f},
@@ -45,7 +45,7 @@ Bsdf white(float metallic, float roughness) {
     return {glm::vec3(1.0f), metallic, roughness};
 }
 
-/// Midpoints of 512 x 512 cells of (z, phi), all of the sphere; the solid angle of a cell is 4 pi / 512^2.
+/// Midpoints of 512 x 512 cells of (z, phi) over the sphere; each cell has the solid angle 4 pi / 512^2.
 std::vector<glm::vec3> sphere() {
     std::vector<glm::vec3> directions;
     for (const glm::dvec2 u : unitSquare(512)) {
@@ -56,7 +56,7 @@ std::vector<glm::vec3> sphere() {
     return directions;
 }
 
-/// Integrals over the sphere: of f |cos| in xyz, of the density in w.
+/// Integrals over the sphere: f |cos| in xyz, the density in w.
 glm::dvec4 integrals(const ShaderLibrary& library, const Bsdf& b, const glm::vec3& wo) {
     static const std::vector<glm::vec3> directions = sphere();
     glm::dvec4 sum(0.0);
@@ -68,8 +68,8 @@ glm::dvec4 integrals(const ShaderLibrary& library, const Bsdf& b, const glm::vec
     return sum * (4.0 * kPi / static_cast<double>(directions.size()));
 }
 
-/// The white furnace: where nothing is absorbed everything returns, for every roughness and direction. The
-/// fits of a metal's multiple scattering are good to 1 %.
+/// The white furnace: a surface that absorbs nothing reflects everything, for every roughness and direction.
+/// The fits for a metal's multiple scattering are accurate to 1 %.
 TEST(Bsdf, WhiteFurnaceReturnsEverything) {
     for (const glm::vec3& wo : kOutgoing) {
         EXPECT_NEAR(integrals(diffuseOnly(), white(0.0f, 0.5f), wo).x, 1.0, 1e-5);
@@ -83,7 +83,7 @@ TEST(Bsdf, WhiteFurnaceReturnsEverything) {
     }
 }
 
-/// What single scattering loses, and its mean over the hemisphere, against the integral of the lobe itself.
+/// The loss of single scattering, and its mean over the hemisphere, against integrals of the lobe.
 TEST(Bsdf, LossOfSingleScatteringIsItsIntegral) {
     static const std::vector<glm::vec3> directions = sphere();
     for (const float roughness : {0.45f, 0.6f, 0.75f, 0.9f, 1.0f}) {
@@ -132,9 +132,9 @@ const std::vector<Case> kCases{{"diffuse", {glm::vec3(0.5f), 0.0f, 0.5f}, kRadia
                                {"mixture", {glm::vec3(0.7f), 0.5f, 0.6f}, kRadiance},
                                {"metal-shooting", {glm::vec3(0.9f), 1.0f, 0.6f}, kImportance}};
 
-/// Samples over (z, phi) of the upper hemisphere, in which solid angle is an area, against the density in
-/// double precision. Some samples of a rough metal are below the horizon, where nothing is reflected: the
-/// rest have the density in proportion. With and without a shading normal of its own. Ten tests at 1e-5.
+/// Tests samples over (z, phi) of the upper hemisphere, where area is solid angle, against the density in
+/// double precision. Samples of a rough metal may be below the horizon, where nothing is reflected; the
+/// others follow the normalised density. With and without a separate shading normal; ten tests at level 1e-5.
 TEST(Bsdf, SamplesHaveTheirDensity) {
     const std::vector<glm::vec2> us = randomSquare(1 << 17);
     std::vector<float> choices;
@@ -184,7 +184,7 @@ TEST(Bsdf, WeightsOfSamplesMakeTheIntegral) {
     }
 }
 
-/// A scene without metals runs the diffuse lobe alone; it is the same function.
+/// A scene without metals uses only the diffuse lobe, with the same results.
 TEST(Bsdf, DiffuseAloneIsTheSame) {
     const std::vector<glm::vec2> us = randomSquare(1 << 12);
     const Bsdf b{glm::vec3(0.2f, 0.5f, 0.9f), 0.0f, 0.5f};
@@ -212,7 +212,7 @@ TEST(BsdfOracles, AllFunctions) {
     for (std::size_t i = 0; i < n; ++i) {
         bsdfs.push_back({glm::abs(a[i]), i % 3 == 0 ? 0.0f : more[i].x, 0.2f + 0.8f * more[i].y});
         frames.push_back({glm::normalize(b[i] + 0.3f * a[i]), b[i]});
-        // Away from the horizons, on whose two sides single and double precision may fall.
+        // Keeps away from the horizons, where single and double precision may see different sides.
         wo.push_back(glm::normalize(c[i] * (glm::dot(c[i], b[i]) < 0.0f ? -1.0f : 1.0f) + 0.6f * b[i]));
         wi.push_back(glm::normalize(d[i] * (glm::dot(d[i], b[i]) < 0.0f ? -1.0f : 1.0f) + 0.6f * b[i]));
         choices.push_back(us[i].y);

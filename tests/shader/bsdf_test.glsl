@@ -1,7 +1,7 @@
 // BSDFs: both lobes and their mixtures, with shading normals, in both modes.
 #include "shaders/lib/bsdf.glsl"
 
-// Frames of a flat surface, and of one whose shading normal is up to 40 degrees off.
+// Frames of a flat surface, and of one whose shading normal deviates by up to 40 degrees.
 BsdfFrame flatFrame() {
     vec3 n = randomDirection();
     return BsdfFrame(n, n);
@@ -35,7 +35,7 @@ TEST(IsReciprocal) {
     EXPECT_NEAR(f, bsdfEvaluate(bsdf, frame, wi, wo, mode), 2e-4 * maxComponent(f));
 }
 
-// Importance mode is the adjoint: view and light exchange their places in the same function.
+// Importance mode is the adjoint: the same function with the view and light directions exchanged.
 TEST(BothModesEvaluateOneFunction) {
     Bsdf bsdf = randomBsdf();
     BsdfFrame frame = smoothFrame();
@@ -45,7 +45,7 @@ TEST(BothModesEvaluateOneFunction) {
               bsdfEvaluate(bsdf, frame, light, view, kModeImportance));
 }
 
-// Lambert's law: a perfectly diffuse surface of albedo rho has f = rho / pi, in each channel by itself.
+// Lambert's law: a perfectly diffuse surface of albedo rho has f = rho / pi, in each channel separately.
 TEST(DiffuseIsLamberts) {
     Bsdf bsdf = Bsdf(randomVec3(0.0, 1.0), 0.0, randomFloat(0.0, 1.0));
     BsdfFrame frame = flatFrame();
@@ -64,7 +64,7 @@ TEST(NothingIsBelowTheHorizon) {
     EXPECT_EQ(bsdfPdf(bsdf, level, wo, below, mode), 0.0);
     BsdfSample s = bsdfSample(bsdf, frame, wo, randomFloat(0.0, 1.0), randomVec2(), mode);
     EXPECT_TRUE(s.pdf == 0.0 || dot(s.wi, frame.geometric) > 0.0);
-    // Light from behind the shading normal reaches nothing.
+    // Light from behind the shading normal is not reflected.
     vec3 light = above(frame.geometric);
     light -= 1.2 * max(dot(light, frame.shading), 0.0) * frame.shading;
     EXPECT_EQ(bsdfEvaluate(bsdf, frame, wo, normalize(light), kModeRadiance), vec3(0.0));
@@ -83,7 +83,7 @@ TEST(SampleAgreesWithPdfAndEvaluation) {
     EXPECT_NEAR(s.weight * pdf, value, 1e-4 * maxComponent(value) + 1e-7);
 }
 
-// By Malley's method, around the shading normal from the camera, around the geometric normal from the emitters.
+// Malley's method, about the shading normal from the camera and about the geometric normal from the emitters.
 TEST(DiffuseSamplesAreMalleys) {
     Bsdf bsdf = Bsdf(vec3(0.5), 0.0, 0.5);
     BsdfFrame frame = smoothFrame();
@@ -94,7 +94,7 @@ TEST(DiffuseSamplesAreMalleys) {
     EXPECT_NEAR(cosine * cosine, 1.0 - u.x, 2e-6);
 }
 
-// Whatever f is, wherever it is above 0 a sample can come: in importance mode also below the shading normal's horizon.
+// Samples can reach every direction with f > 0: in importance mode also below the shading normal's horizon.
 TEST(DensityIsPositiveWhereLightGoes) {
     Bsdf bsdf = randomBsdf();
     BsdfFrame frame = smoothFrame();
@@ -107,7 +107,7 @@ TEST(DensityIsPositiveWhereLightGoes) {
 
 Bsdf mirror() { return Bsdf(vec3(0.25, 0.5, 1.0), 1.0, 0.0); }
 
-// A mirror has one direction, and its Fresnel reflectance: the base colour at normal incidence, all at grazing.
+// A mirror has one direction and Fresnel reflectance: the base colour at normal, 1 at grazing incidence.
 TEST(MirrorReflects) {
     BsdfFrame frame = flatFrame();
     vec3 wo = above(frame.geometric);
@@ -121,7 +121,7 @@ TEST(MirrorReflects) {
     EXPECT_EQ(bsdfEvaluate(mirror(), frame, wo, s.wi, mode), vec3(0.0));
 }
 
-// With equal parts of diffuse and mirror both are chosen, and the weights make up for the choice.
+// Half diffuse, half mirror: both lobes are sampled, and the weights compensate for the choice.
 TEST(MirrorAndDiffuseShareTheirChoice) {
     Bsdf bsdf = Bsdf(vec3(1.0), 0.5, 0.0);
     BsdfFrame frame = flatFrame();

@@ -11,14 +11,14 @@
 #include "tests/shader/harness/census.h"
 #include "tests/shader/oracles.h"
 
-// Camera rays, and connections from light paths to the camera, against the reference's rays in double
+// Compares camera rays, and connections from light paths to the camera, with the reference's rays in double
 // precision.
 
 DUOLUX_GLSL_TYPE(duolux::shared::DeviceCamera, "DeviceCamera", "");
 
 namespace duolux::test {
 
-/// CameraConnection as it goes through a buffer.
+/// CameraConnection as stored in a buffer.
 struct Seen {
     std::uint32_t visible, pixel;
     glm::vec3 direction;
@@ -69,7 +69,7 @@ TEST(CameraDirection, IsThatOfTheReference) {
             Camera view = kCamera;
             view.vfov = vfov;
             const reference::Pinhole pinhole(view, size.x, size.y);
-            // Corners, the centre, and anywhere.
+            // Corners, the centre, and random positions.
             const glm::vec2 extent(size);
             std::vector<glm::vec2> positions{{0, 0}, {extent.x, 0}, {0, extent.y}, extent, 0.5f * extent};
             std::mt19937 engine(1);
@@ -87,9 +87,9 @@ TEST(CameraDirection, IsThatOfTheReference) {
     }
 }
 
-// A scene of size 1, from a million times that: rays begin before it, at no more than a unit in the last
-// place of its coordinates from where they go in double precision, and its points are seen in the pixels of
-// those rays.
+// A scene of size 1, seen from up to a million times that distance: rays start in front of it and deviate
+// from the exact rays by at most a unit in the last place of its coordinates, and its points are seen in the
+// pixels of those rays.
 TEST(CameraRay, FromFarAwayBeginsBeforeTheScene) {
     const Bounds bounds{{-0.5f, 2.0f, -0.25f}, {0.5f, 3.0f, 0.25f}};
     const glm::dvec3 centre(0.0, 2.5, 0.0);
@@ -135,7 +135,7 @@ TEST(CameraConnection, SeesAPointWhereTheCamerasRayGoes) {
     std::vector<glm::vec3> points;
     std::vector<glm::dvec2> film;
     for (int i = 0; i < 4096; ++i) {
-        // Within the pixels, as single precision cannot tell on which side of an edge a point is.
+        // Keeps away from pixel edges, where single precision cannot tell the side of a point.
         const double x = static_cast<int>(uniform(engine) * kWidth) + 0.001 + 0.998 * uniform(engine);
         const double y = static_cast<int>(uniform(engine) * kHeight) + 0.001 + 0.998 * uniform(engine);
         film.emplace_back(x, y);
@@ -178,7 +178,7 @@ TEST(CameraConnection, SeesNothingBesideOrBehind) {
         points.emplace_back(pinhole.ray(10, x).origin +
                             3.0 * pinhole.ray(10, x - (x > 0 ? kWidth - kHeight : 0)).direction);
     }
-    for (const double x : {0.5, 18.0, 36.5}) {  // what a ray backwards meets
+    for (const double x : {0.5, 18.0, 36.5}) {  // behind the camera
         points.emplace_back(pinhole.ray(x, 7).origin - 2.0 * pinhole.ray(x, 7).direction);
     }
     const std::vector<Seen> seen = connect(recordOf(kCamera), points);
@@ -186,8 +186,8 @@ TEST(CameraConnection, SeesNothingBesideOrBehind) {
         EXPECT_EQ(seen[i].visible, 0u) << i;
 }
 
-/// Light of radiance 1 from everywhere fills every pixel with 1: the importance, which is that of the image
-/// as a whole, integrates over the directions of a pixel to one part in the number of pixels.
+/// Uniform radiance 1 gives every pixel the value 1: the importance is that of the whole image, so its
+/// integral over the directions of a pixel is 1 / (number of pixels).
 TEST(CameraConnection, ImportanceOfAPixelIntegratesToItsPart) {
     std::mt19937 engine(4);
     std::normal_distribution<float> normal;
@@ -237,8 +237,7 @@ TEST(CameraOracles, RaysAndConnections) {
     const reference::Pinhole pinhole(kCamera, kWidth, kHeight);
     for (int i = 0; i < 8192; ++i) {
         positions.push_back(glm::vec2(kWidth, kHeight) * glm::vec2(uniform(engine), uniform(engine)));
-        // In the middle of pixels, some of them beside the image: which pixel it is does not depend on
-        // rounding.
+        // Centres of pixels, some of them beside the image, so that rounding does not change the pixel.
         const double x = std::floor(-5.0f + (kWidth + 10.0f) * uniform(engine)) + 0.5f;
         const double y = std::floor(-5.0f + (kHeight + 10.0f) * uniform(engine)) + 0.5f;
         const double distance = std::exp(6.0 * static_cast<double>(uniform(engine)) - 2.0);

@@ -1,7 +1,7 @@
 // Connections to the camera are consistent with camera rays, for every position of the camera.
 #include "shaders/lib/camera.glsl"
 
-// Somewhere, in any position; a focal length and a shape of its own. Right, up and backwards are right-handed.
+// Random position, orientation, focal length and aspect. Right, up and backwards are right-handed.
 DeviceCamera randomCamera() {
     DeviceCamera camera;
     camera.position = randomVec3(-2.0, 2.0);
@@ -15,7 +15,7 @@ DeviceCamera randomCamera() {
     camera.right = right * (halfHeight * aspect);
     camera.up = cross(right, camera.forward) * halfHeight;
     camera.area = 4.0 * halfHeight * halfHeight * aspect;
-    // Rays begin at the camera, or ahead of it.
+    // Rays start at the camera, or in front of it.
     camera.startDepth = testIndex() % 2u == 0u ? 0.0 : 0.05;
     camera.start = camera.position + camera.forward * camera.startDepth;
     return camera;
@@ -25,7 +25,7 @@ vec3 cameraDirection(DeviceCamera camera, vec2 position) { return cameraRay(came
 
 vec2 imageSize(DeviceCamera camera) { return vec2(camera.width, camera.height); }
 
-// Rows count from the top: at the corners the ray's slopes are those of the edges of the image plane.
+// Rows count from the top: at the corners, the ray's slopes are those of the edges of the image plane.
 TEST(RaysThroughTheCornersSpanTheImagePlane) {
     DeviceCamera camera = randomCamera();
     vec2 corner = vec2(testIndex() & 1u, (testIndex() >> 1u) & 1u);
@@ -59,8 +59,8 @@ TEST(RaysAreUnit) {
     EXPECT_NEAR(length(cameraDirection(camera, randomVec2() * imageSize(camera))), 1.0, 3e-7);
 }
 
-// A point on the ray through a pixel is seen in that pixel. Not within a hundredth of its edge, for single precision
-// cannot tell on which side of it a point is.
+// A point on the ray through a pixel is seen in that pixel. Keeps a hundredth of a pixel away from the edges,
+// where single precision cannot tell on which side a point is.
 TEST(PointOnARayIsSeenWhereTheRayCameFrom) {
     DeviceCamera camera = randomCamera();
     uvec2 cell = uvec2(randomUint() % camera.width, randomUint() % camera.height);
@@ -74,7 +74,7 @@ TEST(PointOnARayIsSeenWhereTheRayCameFrom) {
     EXPECT_NEAR(seen.importance * camera.area * cosine * cosine * cosine * distance * distance, 1.0, 4e-5);
 }
 
-// Beyond one of the four edges, by 2^smallest of the image's size or more.
+// A position beyond one of the four edges, by at least 2^smallest times the image's size.
 vec2 besideImage(uint edge, float smallest) {
     vec2 inside = randomVec2();
     float beyond = randomScale(smallest, 6.0);
@@ -83,7 +83,7 @@ vec2 besideImage(uint edge, float smallest) {
     return vec2(inside.x, edge == 2u ? -beyond : 1.0 + beyond);
 }
 
-// Beyond each of the four edges, and behind: the same points mirrored at the camera.
+// Points beyond each of the four edges, and points of the image mirrored to behind the camera.
 TEST(NothingIsSeenBesideTheImageOrBehind) {
     DeviceCamera camera = randomCamera();
     bool behind = testIndex() % 5u == 4u;
@@ -93,8 +93,8 @@ TEST(NothingIsSeenBesideTheImageOrBehind) {
     EXPECT_FALSE(seen.visible);
 }
 
-// A camera at the origin that looks along -z, four by two pixels, without rounding: edges belong to the image at the
-// left and the top, and to nothing at the right and the bottom.
+// A camera at the origin that looks along -z, with 4 x 2 pixels and no rounding. The image includes its left
+// and top edges, but not its right and bottom edges.
 DeviceCamera plainCamera() {
     DeviceCamera camera;
     camera.position = vec3(0.0);
@@ -112,7 +112,7 @@ DeviceCamera plainCamera() {
 TEST_N(EdgesOfPixelsByHand, 10) {
     vec3 point[10] = vec3[10](vec3(-2, 1, -1), vec3(2, 1, -1), vec3(-2, -1, -1), vec3(0, 0, -1), vec3(-1, 0, -1),
                               vec3(1.5, 0.5, -1), vec3(3, -1, -2), vec3(0, 0, 0), vec3(1, 1, 0), vec3(0, 0, 1));
-    // Top left corner; beyond the right; below the bottom; the middle belongs to the third pixel of the second row.
+    // Top left corner; right edge; bottom edge; the centre belongs to the third pixel of the second row.
     bool visible[10] = bool[10](true, false, false, true, true, true, true, false, false, false);
     uint pixel[10] = uint[10](0u, 0u, 0u, 6u, 5u, 3u, 7u, 0u, 0u, 0u);
     CameraConnection seen = connectToCamera(plainCamera(), point[testIndex()]);
@@ -160,7 +160,7 @@ TEST(NothingIsSeenBesideOrBehindAnOrthographicImage) {
 }
 
 TEST_N(OrthographicByHand, 4) {
-    // Four by two pixels of an image four units wide and two high; cameraRay goes by the kind.
+    // An image of 4 x 2 pixels and 4 x 2 units; cameraRay dispatches by the kind of camera.
     vec3 point[4] = vec3[4](vec3(-1.5, 0.5, -7), vec3(0.5, -0.5, -1), vec3(2.5, 0, -1), vec3(0, 0, 1));
     bool visible[4] = bool[4](true, true, false, false);
     uint pixel[4] = uint[4](0u, 6u, 0u, 0u);

@@ -74,7 +74,7 @@ void expectDensity(std::string_view name, std::span<const glm::dvec2> samples, c
     if (!(std::abs(total - 1.0) <= 1e-4))
         fail(fmt::format("the density's integral over the domain is {}", total));
     for (const glm::dvec2& sample : samples) {
-        // An angle in single precision may lie beyond the circle by a rounding.
+        // Rounding may put an angle slightly outside the circle.
         const glm::dvec2 at = (sample - domain.lower) / size;
         const double margin = 1e-6 * bins;
         if (!(at.x >= -margin && at.y >= -margin && at.x <= bins + margin && at.y <= bins + margin)) {

@@ -10,7 +10,7 @@
 #include "host/vk/handles.h"
 #include "tests/support/run_program.h"
 
-// The device on which tests run, and the behaviour without one.
+// The device on which tests run, and the behaviour if there is none.
 
 namespace duolux::test {
 namespace {

@@ -13,7 +13,7 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
-// Points on emitters: how often each emitter is chosen, the distribution of points on it, and the flux of a
+// Points on emitters: the probability of each emitter, the distribution of points on it, and the flux of a
 // particle.
 
 namespace duolux::test {
@@ -48,10 +48,10 @@ struct Emitter {
     Vec3 v0, v1, v2;
     double area;
     glm::dvec3 power;  ///< W per channel, both components, over the sides that emit
-    double chance;     ///< of being picked, by area and brightness of both components
+    double chance;     ///< of being chosen, by area and brightness of both components
 };
 
-/// In the order of the triangles, in double precision; not by the table.
+/// In the order of the triangles, in double precision, and independent of the table.
 std::vector<Emitter> emittersOf(const Scene& scene) {
     std::vector<Emitter> out;
     double total = 0.0;
@@ -91,7 +91,7 @@ EmitterTable tableOf(const Scene& scene) {
     return buildEmitterTable(scene, emittingTriangles(scene), true);
 }
 
-/// Which emitters the words choose.
+/// The emitters that the words choose.
 std::vector<EmitterChoice> chooseFrom(const Records& records, const std::vector<glm::uvec2>& words) {
     return emitters(records).call<EmitterChoice>("chooseEmitter", static_cast<std::uint32_t>(records.size()),
                                                  words);
@@ -112,9 +112,9 @@ std::vector<glm::uvec2> randomWords(std::size_t count, std::uint32_t seed) {
     return us;
 }
 
-constexpr double kAlpha = 1e-4;  // of each family below
+constexpr double kAlpha = 1e-4;  // for each family below
 
-// Chi-square over the emitters, of 52 points each or many more; 4 tests, level 1e-4 of all.
+// Chi-square over the emitters, with 52 or more points per emitter on average; 4 tests, joint level 1e-4.
 TEST(ChooseEmitter, PicksEmittersByPower) {
     for (const std::size_t count : {1u, 2u, 7u, 1000u, 20011u}) {
         const Scene scene = randomEmitters(count, 17);
@@ -129,7 +129,7 @@ TEST(ChooseEmitter, PicksEmittersByPower) {
         }
         for (std::size_t i = 0; i < count; ++i) {
             expected[i] = expectedOf[i].chance * static_cast<double>(choices.size());
-            // The density that the kernels know is that chance per unit of area.
+            // The density in the record is this probability per unit area.
             EXPECT_NEAR(
                 static_cast<double>(table.records[i].density) * expectedOf[i].area / expectedOf[i].chance,
                 1.0, 1e-6);
@@ -141,14 +141,14 @@ TEST(ChooseEmitter, PicksEmittersByPower) {
     }
 }
 
-// Which emitter a word picks, decided in 64-bit integers: all 32 bits count, those that have not chosen the
-// entry of the table decide about its alias.
+// Repeats the choice in 64-bit integers: all 32 bits count. The bits that remain after the choice of a table
+// entry decide between the entry and its alias.
 TEST(ChooseEmitter, EveryBitDecides) {
     const std::uint32_t count = 20011;
     const Records records = tableOf(randomEmitters(count, 18)).records;
     std::vector<glm::uvec2> us = randomWords(1 << 18, 6);
     for (std::uint32_t i = 0; i < count; ++i) {
-        // The last word that keeps light i, and the first that does not; or as near as words come.
+        // The last word that keeps emitter i and the first that does not, or the nearest words that exist.
         const std::uint64_t edge =
             (std::uint64_t{i} << 32) +
             static_cast<std::uint64_t>(static_cast<double>(records[i].threshold) * 0x1p32);
@@ -188,7 +188,7 @@ Records stackedEmitters(const std::vector<AliasEntry>& table) {
     return records;
 }
 
-// Thresholds 0 and 1, and a word that is at the threshold itself, which keeps nothing.
+// Thresholds 0 and 1, and a word equal to the threshold, which takes the alias.
 TEST(ChooseEmitter, ThresholdsByHand) {
     const Records records = stackedEmitters({{0.0f, 3}, {1.0f, 3}, {0.5f, 3}, {1.0f, 3}});
     std::vector<glm::uvec2> us;
@@ -211,9 +211,9 @@ TEST(ChooseEmitter, ThresholdsByHand) {
     }
 }
 
-// What is left of the first word after the choice is uniform again, be an emitter kept or taken as an alias:
-// points have the density 2 on the triangle. With s = x + y, (s^2, y / s) is uniform on the unit square.
-// Three tests, level 1e-4 of all.
+// The rest of the first word after the choice is uniform again, whether the emitter was kept or replaced by
+// its alias: points have density 2 on the triangle. With s = x + y, (s^2, y / s) is uniform on the unit
+// square. Three tests, joint level 1e-4.
 TEST(ChooseEmitter, PointsAreUniformOnTheTriangle) {
     const Records records = stackedEmitters({{0.3f, 1}, {1.0f, 0}});
     const std::vector<glm::uvec2> us = randomWords(1 << 20, 7);
@@ -245,7 +245,7 @@ TEST(ChooseEmitter, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
         const EmitterPoint& s = points[i];
         const Emitter& e = expected[choices[i].index];
         const Vec3 across = glm::cross(e.v1 - e.v0, e.v2 - e.v0);
-        // To the side from which the corners run counter-clockwise. Flat triangles lose digits.
+        // The normal is on the side from which the corners are counter-clockwise. Thin triangles lose digits.
         const double flat = glm::length(e.v1 - e.v0) * glm::length(e.v2 - e.v0) / glm::length(across);
         ASSERT_LT(glm::length(Vec3(s.normal) - glm::normalize(across)), 1e-6 * flat);
         ASSERT_NEAR(glm::length(Vec3(s.normal)), 1.0, 2e-7);
@@ -294,15 +294,15 @@ TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
     }
 }
 
-// The density per steradian of uniform points on a triangle integrates to 1 over the directions in which it
-// is seen. Directions are taken on a plane at distance 1 (there dw = cos^3 dA), on which the triangle is seen
-// as another, so that distance and cosine at the light come from where a ray meets its plane.
+// The density per steradian of uniform points on a triangle integrates to 1 over the directions in which the
+// triangle is seen. Directions are points of a plane at distance 1 (where dw = cos^3 dA), onto which the
+// triangle is projected; distance and cosine are those where the ray meets the triangle's plane.
 TEST(PdfAreaToSolidAngle, IntegratesToOneOverDirections) {
     std::mt19937 engine(21);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const ShaderLibrary library = emitters(stackedEmitters({{1.0f, 0}}));
     for (int t = 0; t < 20; ++t) {
-        // Seen from the origin, at distance 1 and more along -z, of either winding, also from aside.
+        // Seen from the origin, at distances from 1.1 along -z, of either winding, also obliquely.
         std::array<Vec3, 3> v;
         for (Vec3& p : v)
             p = Vec3(uniform(engine), uniform(engine), -2.0 - 0.9 * uniform(engine));
@@ -313,13 +313,13 @@ TEST(PdfAreaToSolidAngle, IntegratesToOneOverDirections) {
             seen[k] = glm::dvec2(v[k]) / -v[k].z;
         const glm::dvec2 e1 = seen[1] - seen[0], e2 = seen[2] - seen[0];
         const double jacobian = std::abs(e1.x * e2.y - e1.y * e2.x);
-        // integrate() tells the points first, then gets the device's answers, in the same order.
+        // The first integrate() collects the points; the second uses the device's results in the same order.
         std::vector<float> squared, cosine;
         std::vector<double> weight;
         const Rectangle square{{0.0, 0.0}, {1.0, 1.0}};
         integrate(
             [&](double x, double y) {
-                // The square collapsed to the triangle.
+                // Maps the square to the triangle.
                 const glm::dvec2 at = seen[0] + x * e1 + y * (1.0 - x) * e2;
                 const Vec3 direction = glm::normalize(Vec3(at, -1.0));
                 const double distance = glm::dot(v[0], normal) / glm::dot(direction, normal);
@@ -371,8 +371,8 @@ TEST(EmitterOracles, Samples) {
         indices[i] = i;
     EXPECT_ORACLES(library, fetchEmitter, (Budget{0, 0}), indices);
     EXPECT_ORACLES(library, fetchAliasEntry, (Budget{0, 0}), indices);
-    // The choice is exact in all three: of a word, and of a product of two. The rest of a random number
-    // within a small threshold loses digits.
+    // The choice is exact on the device and in both oracles, because it uses only a word and one product. The
+    // remainder of a random number within a small threshold loses digits.
     std::vector<std::uint32_t> counts(20000, 500u);
     EXPECT_ORACLES(library, chooseEmitter, (Budget{2, 4e-6}), counts, randomWords(20000, 10));
 }

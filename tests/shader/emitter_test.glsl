@@ -7,7 +7,7 @@ uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
 uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }
 
-// 0.5 to 2, and of all magnitudes that densities have.
+// From 0.5 to 2, or of any magnitude that densities have.
 float randomDensity() { return testIndex() % 2u == 0u ? randomFloat(0.5, 2.0) : randomScale(-60.0, 60.0); }
 
 // Veach 1997, eq. 9.8 with n_i = 1.
@@ -71,7 +71,7 @@ TEST_N(EmissionIsThatOfTheSideWhoseFlagIsSet, 4) {
     EXPECT_EQ(toBack.visible, (flags & kEmitterBack) != 0u ? vec3(4.0, 5.0, 6.0) : vec3(0.0));
 }
 
-// A direction, a distance, a side and a density that belong to one point of the emitter.
+// Direction, distance, side and density of a sample belong to one point of the emitter.
 TEST(SampleIsAPointOfTheEmitter) {
     Emitter emitter = triangleEmitter(kEmitterFront);
     vec3 receiver = randomVec3(-2.0, 2.0);
@@ -87,7 +87,7 @@ TEST(SampleIsAPointOfTheEmitter) {
     EXPECT_EQ(s.coincident, kNoTriangle);
 }
 
-// The particle leaves on the side that `side` chooses; one side carries all flux, or each of two half of it.
+// The particle leaves on the side that `side` chooses. Its flux is that of all emitting sides.
 TEST(EmittedRayLeavesOnItsSide) {
     bool both = (randomUint() & 1u) == 0u;
     Emitter emitter = triangleEmitter(both ? kEmitterFront | kEmitterBack : kEmitterFront);
@@ -102,7 +102,7 @@ TEST(EmittedRayLeavesOnItsSide) {
     EXPECT_NEAR(ray.flux.visible, vec3(4.0, 5.0, 6.0) * (3.14159265 * (both ? 2.0 : 1.0) / 7.0), 2e-6);
 }
 
-// The camera sees the side that faces it, whichever the particle leaves from.
+// The camera sees the side that faces it, whichever side the particle leaves from.
 TEST(CameraSeesTheSideThatFacesIt) {
     Emitter emitter = triangleEmitter(randomUint() & 3u);
     EmitterPoint on = pointOnTriangleEmitter(emitter, randomVec2());
@@ -117,7 +117,7 @@ Emitter pointEmitter() {
                    Light(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 0.25);
 }
 
-// The inverse square of the distance, in the only direction.
+// Inverse square of the distance, from a single direction.
 TEST(PointEmitterLightsByInverseSquare) {
     Emitter emitter = pointEmitter();
     vec3 receiver = randomVec3(-2.0, 2.0);
@@ -155,7 +155,7 @@ void store(uint index, Emitter emitter) {
     emitterTexels[texel + 5u] = uvec4(floatBitsToUint(1.0), index, 0u, 0u);
 }
 
-// A triangle and a point: the one that is chosen is sampled as its kind, and the closed form adds up both.
+// A triangle and a point: the chosen emitter is sampled by its kind, and the closed form adds up both.
 TEST(EachKindIsServedByItsOwnFunctions) {
     Emitter triangle = triangleEmitter(kEmitterFront | kEmitterBack);
     Emitter point = pointEmitter();

@@ -8,7 +8,7 @@
 #include "tests/shader/mirror_types.h"
 #include "tests/shader/uniformity.h"
 
-// The film's integers against 64-bit integers of the host.
+// Compares the film's integers with 64-bit integers of the host.
 
 namespace duolux::test {
 namespace {
@@ -30,16 +30,16 @@ glm::uvec2 words(std::uint64_t v) {
 
 constexpr float kLargest = 0x1p58f;
 
-/// The integer below value x inverseQuantum, or the next one if u is less than the rest; at most 2^58. The
-/// product is a float's.
+/// The integer below value x inverseQuantum, or the next one if u is less than the fraction; at most 2^58.
+/// The product is rounded to a float.
 std::uint64_t quanta(float value, float inverseQuantum, float u) {
     const double scaled = static_cast<double>(std::min(value * inverseQuantum, kLargest));
     const double whole = std::floor(scaled);
     return static_cast<std::uint64_t>(whole) + (static_cast<double>(u) < scaled - whole ? 1 : 0);
 }
 
-/// Around every power of two, integers and halves: where floats lose their fraction (2^23), the low word
-/// overflows (2^32), the largest is reached (2^58). Then anything.
+/// Integers and halves around every power of two, including those where floats lose their fraction (2^23),
+/// the low word overflows (2^32) and the maximum is reached (2^58); then random values.
 std::vector<float> values() {
     std::vector<float> out{0.0f, 1e-45f, 1e-38f, 1e-30f, 0.25f,   0.49f,
                            0.5f, 0.51f,  1.5f,   2.5f,   3.4e38f, INFINITY};
@@ -53,12 +53,12 @@ std::vector<float> values() {
     std::uniform_real_distribution<float> uniform;
     for (int i = 0; i < 4096; ++i)
         out.push_back(std::exp2(90.0f * uniform(engine) - 30.0f));
-    for (int i = 0; i < 4096; ++i)  // odd and even integers without a fraction, and the halves below
+    for (int i = 0; i < 4096; ++i)  // odd and even integers, and halves
         out.push_back(std::floor(0x1p24f * uniform(engine)) * (i % 2 == 0 ? 1.0f : 0.5f));
     return out;
 }
 
-/// Uniform numbers as kernels have them, and both ends among them.
+/// Uniform numbers as kernels generate them, including both ends.
 std::vector<float> uniformNumbers(std::size_t count) {
     std::mt19937 engine(5);
     std::vector<float> out{0.0f, 0x1.fffffep-1f, 0.5f, 0.25f};
@@ -81,7 +81,7 @@ TEST(FilmQuantise, IsOneOfTheIntegersBeside) {
     }
 }
 
-// Over all uniform numbers the mean is the value, however small it is: 2^24 of them, in steps of 2^12.
+// The mean over all uniform numbers (2^24, in steps of 2^12) is the value, however small it is.
 TEST(FilmQuantise, HasNoBias) {
     constexpr std::size_t kNumbers = 4096;
     for (const float value : {0x1p-12f, 3e-4f, 0.01f, 0.3f, 0.5f, 0.875f, 1.25f, 1000.1f, 4194303.75f}) {
@@ -96,8 +96,8 @@ TEST(FilmQuantise, HasNoBias) {
     }
 }
 
-// The six numbers of a sample are uniform, and independent of one another, of those of its neighbours and of
-// the sampler's. All tests together fail by chance once in 10^6 runs, but seeds are fixed.
+// The six numbers of a sample are uniform, and independent of each other, of those of its neighbours and of
+// the sampler's. All tests together fail by chance once in 10^6 seeds; the seeds are fixed.
 TEST(FilmRounding, IsUniformAndIndependent) {
     constexpr std::uint32_t kSamples = 1 << 16;
     std::vector<std::uint32_t> a(kSamples), b(kSamples);
@@ -135,7 +135,7 @@ TEST(FilmRounding, IsUniformAndIndependent) {
     family.expect(1e-6);
 }
 
-/// All pairs of numbers at which words overflow, and random ones.
+/// All pairs of numbers at which words overflow, and random pairs.
 std::pair<std::vector<glm::uvec2>, std::vector<glm::uvec2>> operands() {
     const std::vector<std::uint64_t> edges{0,
                                            1,
@@ -189,7 +189,7 @@ TEST(FilmAddSigned, IsThatOf64BitIntegers) {
     std::mt19937_64 engine(3);
     for (std::size_t i = 0; i < magnitudes.size(); ++i) {
         for (const float sign : {1.0f, -1.0f}) {
-            // Sums of both signs, those that a term takes across 0 or across a word among them.
+            // Sums of both signs, including those for which a term crosses 0 or a word boundary.
             const std::uint64_t sum = i % 3 == 0   ? engine()
                                       : i % 3 == 1 ? quanta(magnitudes[i], 4.0f, 0.5f)
                                                    : 0 - quanta(magnitudes[i], 4.0f, 0.5f);
@@ -243,11 +243,11 @@ TEST(FilmAccumulateSigned, AddsEveryChannelToTheNearest) {
     }
 }
 
-// Quanta are powers of two, so that not even the product rounds: the device is exact, whatever computes.
+// Quanta are powers of two, so even the product does not round: every device is exact.
 TEST(FilmOracles, Integers) {
     const Budget exact{0, 0};
     std::vector<float> in = values();
-    // Devices may take the smallest for 0.
+    // Devices may flush the smallest numbers to 0.
     std::erase_if(in, [](float x) { return x < 1e-37f && x != 0.0f; });
     const std::vector<float> uniform = uniformNumbers(in.size());
     const std::vector<float> inverses(in.size(), 0x1p10f);

@@ -42,7 +42,7 @@ TEST(NegativeIsWhatMakesNothing) {
     EXPECT_EQ(filmNegate(filmNegate(a)), a);
 }
 
-// The result is one of the two adjacent multiples; an integer stays unchanged.
+// The result is one of the two adjacent multiples; an integer is unchanged.
 TEST(QuantisingRoundsToAMultipleBeside) {
     float radiance = randomFloat(0.0, 16777216.0) * randomScale(-24.0, 0.0);
     uvec2 quanta = filmQuantise(radiance, 1.0, randomFloat());

@@ -2,8 +2,8 @@
 #ifndef DUOLUX_TESTS_SHADER_FRAME_INPUTS_GLSL
 #define DUOLUX_TESTS_SHADER_FRAME_INPUTS_GLSL
 
-// Unit directions where a frame might fail: the poles, the seam n.z = 0 and -0.0 between the two cases of the formula,
-// components so small that they or their squares are not normal numbers, and what is near all these.
+// Unit directions where a frame might fail: the poles, the seam n.z = 0 and -0.0 between the two cases of the
+// formula, components so small that they or their squares are denormal, and directions near all these.
 vec3 hardNormal() {
     uint which = randomUint() % 8u;
     float phi = randomFloat(0.0, 6.2831853);

@@ -9,7 +9,7 @@
 
 namespace duolux::test {
 
-/// `meta`: as in bvh_layout.h.
+/// `meta`: see bvh_layout.h.
 inline void setChild(shared::WideNode& node, int slot, std::uint32_t meta, glm::uvec3 lower,
                      glm::uvec3 upper) {
     node.meta[slot] = static_cast<std::uint8_t>(meta);

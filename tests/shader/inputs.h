@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-// Inputs for shader functions, the same ones on every run and machine.
+// Inputs for shader functions, identical on every run and machine.
 
 namespace duolux::test {
 
@@ -44,7 +44,7 @@ inline std::vector<glm::vec2> randomSquare(std::size_t n, std::uint32_t seed = 1
     return us;
 }
 
-/// Uniform on the sphere; unit but for the rounding of each component.
+/// Uniform on the sphere; unit length up to the rounding of each component.
 inline std::vector<glm::vec3> randomDirections(std::size_t n, std::uint32_t seed = 1) {
     std::vector<glm::vec3> directions;
     for (const glm::vec2 u : randomSquare(n, seed)) {
@@ -56,7 +56,7 @@ inline std::vector<glm::vec3> randomDirections(std::size_t n, std::uint32_t seed
     return directions;
 }
 
-/// Of both signs, magnitudes from 2^lower to 2^upper, every binade as often as another.
+/// Of both signs, with magnitudes from 2^lower to 2^upper, every binade with equal frequency.
 inline std::vector<float> randomScales(std::size_t n, double lower, double upper, std::uint32_t seed = 1) {
     std::vector<float> floats;
     for (const glm::vec2 u : randomSquare(n, seed)) {

@@ -7,7 +7,7 @@
 #include "tests/shader/oracles.h"
 #include "tests/shader/test_meshes.h"
 
-// Rays against triangles and boxes, in double precision by other formulas than the library's, and both
+// Compares rays against triangles and boxes with different formulas in double precision, and with both
 // oracles.
 
 namespace duolux::test {
@@ -54,9 +54,9 @@ std::vector<ShotHit> shoot(const std::vector<Shot>& shots) {
 struct Reference {
     double t;
     std::array<double, 3> barycentric;
-    double cosine;    ///< between ray and normal
-    double farthest;  ///< corner from the origin
-    double longest;   ///< edge
+    double cosine;    ///< of the angle between ray and normal
+    double farthest;  ///< distance of a corner from the ray's origin
+    double longest;   ///< length of an edge
     double height;    ///< twice the area over the longest edge
 };
 
@@ -78,8 +78,8 @@ Reference referenceOf(const Shot& shot) {
             area / longest};
 }
 
-/// Triangles of all shapes down to slivers of 1 : 1000, rays from near to 100 edges away, along axes and
-/// grazing (down to a cosine of about 0.01) among them, at and beside the triangle.
+/// Triangles of all shapes down to slivers of 1 : 1000, and rays at and beside them, from up to 100 edges
+/// away, including axis-parallel and grazing ones (down to a cosine of about 0.01).
 std::vector<Shot> shots(int count, float smallestCosine) {
     Random random(7);
     std::vector<Shot> out;
@@ -106,10 +106,10 @@ std::vector<Shot> shots(int count, float smallestCosine) {
     return out;
 }
 
-/// The corners' coordinates across the ray have errors of a few roundings of their distance. That moves the
-/// point by as much, seen from the ray, by more in the plane if it is seen at a slant, and barycentric
-/// coordinates by that over the triangle's height. Where every one of them is further from 0, hit and miss
-/// are certain. Lavapipe needs 3.7 of these units.
+/// The corners' coordinates across the ray have errors of a few roundings of their distance. They move the
+/// point by as much across the ray, by that divided by the cosine within the plane, and barycentric
+/// coordinates by that divided by the triangle's height. If all of them are further from 0, hit and miss are
+/// certain. Lavapipe needs 3.7 of these units.
 constexpr double kBudget = 8.0;
 
 TEST(Intersect, TrianglesAgreeWithDoublePrecision) {
@@ -155,8 +155,8 @@ struct BoxCase {
     glm::vec3 lower, upper;
 };
 
-/// How far the ray's stay within the slabs is from empty, by clipping its line against one slab after the
-/// other; the larger of that and a measure of rounding is certain.
+/// Length of the ray's interval within the slabs, by clipping its line against one slab after another;
+/// negative if it misses. Hit and miss are certain if the magnitude exceeds rounding errors.
 double stayWithin(const BoxCase& box, double& farthest) {
     double entry = static_cast<double>(box.tMin), leave = 1e300;
     farthest = 0.0;
@@ -175,8 +175,7 @@ double stayWithin(const BoxCase& box, double& farthest) {
     return leave - entry;
 }
 
-/// Boxes of all scales, rays at and beside them, of which double precision says for certain whether they
-/// meet.
+/// Boxes of all scales, and rays at and beside them for which double precision decides with certainty.
 struct BoxCases {
     std::vector<glm::vec3> origins, directions, lowers, uppers;
     std::vector<float> tMins;
@@ -223,7 +222,7 @@ TEST(Intersect, BoxesAgreeWithDoublePrecision) {
 }
 
 TEST(IntersectOracles, Triangle) {
-    // Well conditioned, and away from edges, where single and double would part.
+    // Well conditioned, and away from edges, where single and double precision may differ.
     std::vector<Shot> all;
     for (const Shot& shot : shots(20000, 0.1f)) {
         const Reference r = referenceOf(shot);

@@ -158,7 +158,7 @@ TEST(EdgeOnThereIsNoHit) {
     EXPECT_FALSE(shoot(tri, origin, d).hit);
 }
 
-// NaN or infinity in a ray or a triangle: the distance is one that no traversal accepts.
+// NaN or infinity in a ray or a triangle: no traversal accepts the distance.
 TEST(NotANumberAndInfinityAreNoAcceptedHit) {
     Triangle tri = randomTriangle();
     vec3 d = randomDirectionAcross(tri);
@@ -225,12 +225,12 @@ TEST_N(SafeInverseIsLargeAndFiniteAtZero, 1) {
     EXPECT_ULP(safeInverse(-1e-25), -1e20, 3);
     EXPECT_ULP(safeInverse(1e-25), 1e20, 3);
     EXPECT_ULP(safeInverse(2e-20), 5e19, 3);
-    // Denormal numbers may be taken for 0.
+    // Denormal numbers may be flushed to 0.
     EXPECT_ULP(abs(safeInverse(uintBitsToFloat(0x80000001u))), 1e20, 3);
     EXPECT_ULP(safeInverse(uintBitsToFloat(0x00000001u)), 1e20, 3);
 }
 
-// A random box, and a point inside or on it, on a face if the component of `b` is 0 or 1.
+// A random box, and a point inside it, or on a face if a component of `b` is 0 or 1.
 struct Box { vec3 lower; vec3 upper; };
 Box randomBox() {
     vec3 corner = randomVec3(-1.0, 1.0);
@@ -262,8 +262,9 @@ TEST(BoxesAreLeftBeyondTheFarSide) {
     EXPECT_FALSE(intersectBox(p, d, far * 1.001 + 1e-6, box.lower, box.upper));
 }
 
-// Parallel to an axis within the other slabs, their lower ends included; not beside them. (A ray that runs in the upper
-// face of a box may miss it: 0 times the large inverse of 0 is 0, and there it leaves the slab. Boxes are widened.)
+// A ray parallel to an axis hits a box if it is within the other slabs, including their lower ends. (A ray in
+// the upper face may miss: 0 times the large inverse of 0 is 0, where it leaves the slab. Builders widen
+// boxes.)
 TEST(RaysAlongAxesMeetBoxesWithinTheirSlabs) {
     Box box = Box(vec3(-1.0, -2.0, 0.5), vec3(3.0, 0.0, 0.75));
     int axis = int(randomUint() % 3u);
@@ -288,7 +289,7 @@ TEST(BoxesAreTouchedAtTMin) {
     EXPECT_FALSE(intersectBox(vec3(0.0), d, 4.0001, lower, upper));
 }
 
-// With a negative operand, too, as long as the result is not negative; else it is some negative number.
+// A negative operand is allowed if the result is not negative; otherwise the result is some negative number.
 TEST(MinimumAndMaximumOnBits) {
     float a = randomScale(-60.0, 60.0);
     float b = (randomUint() & 7u) == 0u ? 0.0 : randomScale(-60.0, 60.0);

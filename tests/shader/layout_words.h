@@ -12,19 +12,19 @@
 #include "shaders/shared/path_layout.h"
 #include "shaders/shared/trace_layout.h"
 
-// The structures of shaders/shared as lists of their 4-byte words, for sentinels that tell whether host and
-// device mean the same place by a name.
+// The structures of shaders/shared as lists of their 4-byte words. Sentinels in these words test whether host
+// and device agree on the offset of each field.
 
 namespace duolux::test {
 
-/// A word of a structure: what GLSL calls it, and where it is.
+/// A word of a structure: its name in GLSL, its type and its offset.
 struct LayoutWord {
     std::string name;
     bool isFloat;
     std::size_t offset;
 };
 
-/// Collects the words of the fields it is shown.
+/// Collects the words of the fields that it visits.
 class WordList {
   public:
     explicit WordList(const void* structure) : base_(static_cast<const std::byte*>(structure)) {}

@@ -5,8 +5,8 @@
 #include "tests/shader/test_meshes.h"
 #include "tests/shader/traced_scene.h"
 
-// Closed meshes traced through the tree: no ray escapes, neither one aimed at edges and corners nor one that
-// starts with the ray offset on a surface. Each invocation generates 64 rays on the device.
+// Closed meshes traced through the tree: no ray escapes, whether it is aimed at edges and corners or starts
+// on a surface with the ray offset. Each invocation generates 64 rays on the device.
 
 namespace duolux::test {
 
@@ -31,7 +31,7 @@ struct Mesh {
     std::uint32_t rays;
     float scale = 1.0f;
     glm::vec3 offset{0.0f};
-    /// A ball around the middle that is inside with a good margin, of the scale.
+    /// Radius, relative to the scale, of a ball around the centre that is well inside.
     float inner = 0.3f;
 };
 
@@ -39,7 +39,7 @@ std::ostream& operator<<(std::ostream& out, const Mesh& mesh) {
     return out << mesh.name;
 }
 
-/// Random rays from the harness, without its loops, which count against those that drivers allow.
+/// Random rays like the harness's, without its loops, because drivers limit the number of iterations.
 constexpr const char* kRays = R"(
 #include "tests/shader/harness/random.glsl"
     vec3 uniformDirection() {
@@ -65,7 +65,7 @@ Leaks sum(const std::vector<Leaks>& parts) {
 
 class ClosedMesh : public testing::TestWithParam<Mesh> {
   protected:
-    /// Runs statements for ray after ray; x1: triangles, x2: (offset, scale), x3: radius of the inner ball.
+    /// Runs the statements for each ray; x1: triangles, x2: (offset, scale), x3: radius of the inner ball.
     static Leaks run(const Mesh& mesh, const std::string& statements, std::uint32_t rays) {
         const TracedScene scene(moved(mesh.geometry(), mesh.scale, mesh.offset));
         ShaderLibrary library = traversalOf(scene.tree);
@@ -111,8 +111,9 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ClosedMesh,
                                               2000000, 1.0f, glm::vec3(577.0f, -612.0f, 541.0f)}),
                          [](const auto& mesh) { return mesh.param.name; });
 
-/// Rays from far outside. The rounding of a triangle test grows with the distance; a node's box must be wide
-/// enough for what it meets. `slant`: of the components of a ray's direction in the face that it is aimed at.
+/// Rays from far outside. The rounding of a triangle test grows with the distance, so a node's box must be
+/// wide enough for the triangles that such a ray hits. `slant`: components of the ray's direction along the
+/// face at which it is aimed.
 struct Afar {
     float distance;  ///< in edges of the mesh
     float leastSlant, mostSlant;
@@ -161,13 +162,13 @@ TEST_P(SeenFromAfar, MeshesAreMetAtTheirEdges) {
                                << leaks.direction.z;
 }
 
-/// Almost along an axis boxes are wide enough up to a few thousand edges (at 2e5 edges 0.4 % of these rays
-/// miss); at a slant the relative margin of the slab test serves at any distance.
+/// Nearly along an axis, boxes are wide enough up to a few thousand edges (at 2e5 edges, 0.4 % of these rays
+/// miss); for slanted rays, the relative margin of the slab test suffices at any distance.
 INSTANTIATE_TEST_SUITE_P(Distances, SeenFromAfar,
                          testing::Values(Afar{10.0f, 0.0f, 0.1f}, Afar{1e3f, 0.0f, 0.1f},
                                          Afar{1e5f, 0.5f, 1.0f}, Afar{1e6f, 0.5f, 1.0f}));
 
-/// Scales with a mesh about the origin, and the mesh far away.
+/// Scales with the mesh at the origin, and with the mesh far away.
 struct Place {
     float scale;
     glm::vec3 offset;  ///< in units of the scale
@@ -180,8 +181,8 @@ std::ostream& operator<<(std::ostream& out, const Place& place) {
 
 class RayOffset : public testing::TestWithParam<Place> {
   protected:
-    /// Rays leave points of the mesh to the inside, half of them at grazing angles. `margin`: of barycentric
-    /// coordinates, to keep away from edges. selfHits: rays that meet first what is in the plane of their own
+    /// Rays from points of the mesh to the inside, half of them at grazing angles. `margin`: distance from
+    /// edges, in barycentric coordinates. selfHits: rays whose first hit is in the plane of their own
     /// triangle.
     static Leaks run(const Geometry& mesh, float margin, std::uint32_t rays) {
         const Place& place = GetParam();
@@ -222,15 +223,15 @@ class RayOffset : public testing::TestWithParam<Place> {
     }
 };
 
-/// All corners are obtuse: what moves off one triangle does not come near another.
+/// All dihedral angles are obtuse: an offset from one triangle does not approach another.
 TEST_P(RayOffset, KeepsRaysInsideASphere) {
     const Leaks leaks = run(icosphere(3), 0.0f, 200000);
     EXPECT_EQ(leaks.leaks, 0u) << leaks.origin.x << " " << leaks.origin.y << " " << leaks.origin.z;
     EXPECT_EQ(leaks.selfHits, 0u);
 }
 
-/// Right angles, and faces of many triangles in one plane. A point on an edge is on no side of the other face
-/// but by its rounding: points keep off edges by more than that.
+/// Right angles, and faces of many triangles in one plane. Points keep off edges, because only rounding
+/// decides on which side of the adjacent face a point on an edge is.
 TEST_P(RayOffset, KeepsRaysInsideACubeAndOffCoplanarNeighbours) {
     const Leaks leaks = run(gridCube(8), 0.01f, 200000);
     EXPECT_EQ(leaks.leaks, 0u) << leaks.origin.x << " " << leaks.origin.y << " " << leaks.origin.z;

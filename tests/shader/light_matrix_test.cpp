@@ -28,10 +28,10 @@ Matrix deviceMatrix(const LightMatrix& m) {
     return {m.m00, m.m01, m.m10, m.m11};
 }
 
-/// The effect of a preset on the light (i, v), where f is reflected and g is transmitted.
+/// The effect of a preset on the radiance (i, v), where f is reflected and g is transmitted.
 using Scatter = glm::vec2 (*)(float i, float f, float g);
 
-/// L_out = F L with F = O f + T g, for all of these; powers of two and 3, so that every number is exact.
+/// L_out = F L with F = O f + T g. All values are powers of two, or 3, so every number is exact.
 void expectScatter(const char* preset, Scatter expected) {
     SCOPED_TRACE(preset);
     const std::optional<Reflectance> reflectance = presetReflectance(preset);
@@ -56,7 +56,7 @@ void expectScatter(const char* preset, Scatter expected) {
         deviceMatrix(reflectance->opaque), deviceMatrix(reflectance->transparent), opaque, transparent,
         lights);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {  // eq. 17: every channel for itself
+        for (int c = 0; c < 3; ++c) {  // eq. 17: each channel separately
             const glm::vec2 light = expected(lights[i].invisible[c], opaque[i], transparent[i]);
             EXPECT_EQ(out[i].invisible[c], light.x) << i << ", channel " << c;
             EXPECT_EQ(out[i].visible[c], light.y) << i << ", channel " << c;
@@ -102,7 +102,7 @@ struct Walls {
     }
 };
 
-/// Presets and blends: without second columns, if `full` is not set; else matrices that differ by channel.
+/// Presets and blends, whose second columns are zero; or, if `full`, matrices that differ by channel.
 Walls enclosures(bool full) {
     Walls walls;
     std::mt19937 engine(11);
@@ -193,7 +193,7 @@ std::string gatherBy(const std::string& multiply) {
            "}";
 }
 
-/// Rounding of a sum of up to 300 terms that shrinks by 0.855 a term at least.
+/// Rounding of a sum of up to 300 terms, each at most 0.855 times the one before.
 constexpr double kSeriesError = 1e-6;
 
 class Enclosure : public testing::TestWithParam<bool> {

@@ -16,7 +16,7 @@ Light randomLight() {
     return Light(invisible, randomIntegers());
 }
 
-// One channel, as GLSL has matrices: by columns.
+// One channel as a GLSL matrix, which is stored by columns.
 mat2 channel(LightMatrix a, int c) { return mat2(a.m00[c], a.m10[c], a.m01[c], a.m11[c]); }
 vec2 channel(Light l, int c) { return vec2(l.invisible[c], l.visible[c]); }
 
@@ -27,8 +27,8 @@ LightMatrix sum(LightMatrix a, LightMatrix b) {
 Light sum(Light a, Light b) { return Light(a.invisible + b.invisible, a.visible + b.visible); }
 vec3 inner(Light a, Light b) { return a.invisible * b.invisible + a.visible * b.visible; }
 
-// The largest difference of an entry, in any channel: 0 if and only if they are the same. (One expectation instead of
-// many, which drivers take long to compile.)
+// The largest difference of an entry in any channel: 0 if and only if all entries are equal. (One expectation
+// instead of many, which drivers compile slowly.)
 float off(vec3 a, vec3 b) {
     vec3 d = abs(a - b);
     return max(d.x, max(d.y, d.z));
@@ -112,8 +112,9 @@ TEST(TransposeReversesProducts) {
     EXPECT_EQ(off(transposed(lightMultiply(a, b)), lightMultiply(transposed(b), transposed(a))), 0.0);
 }
 
-// A path W = T O T from the camera, multiplied from the right, collects E; a particle that brings E is multiplied by
-// the same matrices from the left, in the order in which it meets them. Both show the row d of it.
+// A path W = T O T from the camera, multiplied from the right, collects E. A particle that carries E is
+// multiplied by the same matrices from the left, in the order in which it meets them. Both display row d of
+// the result.
 TEST(GatheringAndShootingGiveTheSame) {
     LightMatrix first = randomMatrix();
     LightMatrix second = randomMatrix();
@@ -123,7 +124,7 @@ TEST(GatheringAndShootingGiveTheSame) {
     LightMatrix importance = lightMultiply(lightMultiply(lightMultiply(lightIdentity(), first), second), third);
     Light flux = lightApply(first, lightApply(second, lightApply(third, emission)));
     EXPECT_EQ(off(lightApply(importance, emission), flux), 0.0);
-    // The row alone: d W, which as a column is W^T d.
+    // Only the displayed row: d W, which as a column is W^T d.
     Light row = lightApply(transposed(third), lightApply(transposed(second), lightApply(transposed(first), display)));
     EXPECT_EQ(inner(row, emission), inner(display, flux));
 }
@@ -151,7 +152,7 @@ TEST(ScalingIsByChannel) {
     EXPECT_EQ(wrongLight, 0.0);
 }
 
-// Eq. 17: blocks on a diagonal. What one channel holds changes nothing in the others.
+// Eq. 17: blocks on a diagonal. A channel does not affect the others.
 TEST(ChannelsDoNotMix) {
     LightMatrix a = randomMatrix();
     LightMatrix b = randomMatrix();
@@ -193,7 +194,7 @@ TEST_N(WeightOfOneEntryIsThatOfItsRow, 12) {
     EXPECT_EQ(lightWeight(a, vec2(0.25, 0.75)), e < 2u ? 1.0 : 3.0);
 }
 
-// What light of 1 in both components becomes, its components weighted, in the brightest channel.
+// The weighted components of the matrix times (1, 1), in the brightest channel.
 TEST(WeightIsWhatUnitLightBecomesInTheBrightestChannel) {
     LightMatrix a = randomMatrix();
     vec2 rows = vec2(0.25, 0.75);

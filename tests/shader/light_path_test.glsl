@@ -11,7 +11,7 @@ TEST_N(SumsAreEmptyAtFirst, 1) {
     EXPECT_EQ(sums.lastBounce | sums.previousBounce | sums.invisible | sums.visible, uvec2(0u));
 }
 
-// Every field holds a number of its own.
+// Every field has a different value.
 TEST_N(ResultHasEveryField, 1) {
     LaneResult result = laneResult(LaneSums(1u, 2u, 3u, 4u, 5u, uvec2(6u, 7u), uvec2(8u, 9u), uvec2(10u, 11u),
                                             uvec2(12u, 13u)));

@@ -1,14 +1,14 @@
 #pragma once
 
-// Structures of the library on their way between host and device: their names in GLSL, the numbers they
-// consist of, and how those in single precision widen to those in double precision.
+// Structures of the library as they pass between host and device: their GLSL names, the numbers they consist
+// of, and their conversion from single to double precision.
 
 #include <vector>
 
 #include "tests/shader/oracles.h"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
-/// A structure of the mirror that libraries declare, and its fields, those of `s`.
+/// A structure of the mirror that a library declares; the arguments are its fields, as members of `s`.
 #define DUOLUX_MIRROR_TYPE(Name, ...)                          \
     DUOLUX_GLSL_TYPE(duolux::mirror::single::Name, #Name, ""); \
     namespace duolux::mirror::single {                         \

@@ -7,7 +7,7 @@
 #include "tests/shader/inputs.h"
 #include "tests/shader/oracles.h"
 
-// Shading normals: the error of their 16-bit coding, interpolation in double, and both oracles.
+// Shading normals: the error of their 16-bit coding, interpolation in double precision, and both oracles.
 
 namespace duolux::test {
 namespace {
@@ -45,7 +45,7 @@ glm::dvec3 decode(std::uint32_t bits) {
         glm::dvec3(std::copysign(1.0 - std::abs(e.y), e.x), std::copysign(1.0 - std::abs(e.x), e.y), z));
 }
 
-/// Directions everywhere, on the axes, the planes between octants, and near these.
+/// Directions on the whole sphere, on the axes and on the planes between octants, and near these.
 std::vector<glm::dvec3> directions() {
     std::vector<glm::dvec3> all;
     for (const glm::vec3& d : randomDirections(1 << 16))
@@ -65,10 +65,10 @@ std::vector<glm::dvec3> directions() {
     return all;
 }
 
-/// Half a unit in both coordinates is at most 2^-0.5 / 32767 of the square's plane; there a step (dx, dy) is
-/// one of (dx, dy, -dx - dy) on the octahedron, at most sqrt(3) times as long, which is seen from its centre
-/// under an angle at most sqrt(3) times as large: 6.48e-5 rad (0.0037 degrees, as in table 2 of Cigolle et
-/// al.), and the roundings of floats.
+/// Half a unit in both coordinates is at most 2^-0.5 / 32767 in the square's plane. A step (dx, dy) there is
+/// (dx, dy, -dx - dy) on the octahedron, at most sqrt(3) times as long, and its angle seen from the centre is
+/// at most sqrt(3) times as large: 6.48e-5 rad (0.0037 degrees, as in table 2 of Cigolle et al.), plus the
+/// rounding of floats.
 TEST(Normals, CodingIsOffByNoMoreThanItsUnit) {
     const std::vector<glm::dvec3> all = directions();
     std::vector<std::uint32_t> codes;
@@ -100,8 +100,9 @@ TEST(Normals, SignsAreKept) {
         ASSERT_EQ(glm::sign(glm::dvec3(decoded[i])), glm::sign(all[i])) << i;
 }
 
-/// Every code but those on the border, where one direction has two, is the nearest of what it decodes to. In
-/// double the directions are the same up to the roundings of floats.
+/// Every code except those on the border, where a direction has two codes, is the nearest one to the
+/// direction that it decodes to. In double precision the directions are the same up to the rounding of
+/// floats.
 TEST(Normals, DecodingInvertsEncoding) {
     std::vector<std::uint32_t> codes = randomWords(1 << 18);
     for (int x = -32766; x <= 32766; x += 7) {
@@ -126,7 +127,7 @@ struct Points {
 
 constexpr std::uint32_t kTriangles = 64;
 
-/// Normals of triangles whose corners are up to 60 degrees apart, the fourth word something else.
+/// Normals of triangles whose corners are up to 60 degrees apart, with an unrelated fourth word.
 std::vector<shared::DeviceNormals> triangleNormals() {
     std::vector<shared::DeviceNormals> all;
     const std::vector<glm::vec3> directions = randomDirections(4 * kTriangles, 2);
@@ -140,7 +141,7 @@ std::vector<shared::DeviceNormals> triangleNormals() {
     return all;
 }
 
-/// Corners, points of edges and of the inside, of every triangle.
+/// Corners, points on edges and interior points of every triangle.
 Points pointsOfAll() {
     Points points;
     for (std::uint32_t triangle = 0; triangle < kTriangles; ++triangle) {

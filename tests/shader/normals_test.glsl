@@ -1,4 +1,4 @@
-// Shading normals. Signed 16-bit numbers are written as their value times 1 / 32767.
+// Shading normals. Signed 16-bit numbers stand for their value times 1 / 32767.
 #include "shaders/lib/normals.glsl"
 
 uvec4 texel;       // the texel to fetch
@@ -11,8 +11,8 @@ uvec4 fetchNormalTexel(uint index) {
 
 uint code(int x, int y) { return (uint(x) & 0xffffu) | (uint(y) << 16u); }
 
-// The decoder as published (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014,
-// section 3.2), with GLSL's own way to unpack.
+// The decoder as published (Cigolle et al., "A Survey of Efficient Representations for Independent Unit
+// Vectors", 2014, section 3.2), with GLSL's own function to unpack.
 vec3 published(uint bits) {
     vec2 e = unpackSnorm2x16(bits);
     vec3 v = vec3(e, 1.0 - abs(e.x) - abs(e.y));
@@ -34,8 +34,8 @@ TEST_N(AxesAreWhereTheyBelong, 1) {
     EXPECT_NEAR(octahedralDecode(code(-32767, -32767)), vec3(0.0, 0.0, -1.0), 4e-7);
 }
 
-// 2^22 codes, each first coordinate with 64 second ones spread over all: what is published, and unit. Not -32768, which
-// no encoder writes.
+// 2^22 codes, each first coordinate with 64 second coordinates: unit results, equal to the published ones.
+// Excludes -32768, which no encoder writes.
 TEST_N(DecodesAsPublished, 65536) {
     float furthest = 0.0;
     float longest = 0.0;
@@ -54,8 +54,8 @@ TEST_N(DecodesAsPublished, 65536) {
     EXPECT_GE(shortest, 1.0 - 4e-7);
 }
 
-// Every code on the square's border, on its axes, and on the diamond that becomes the equator. -32768 is -32767 again,
-// but for a rounding.
+// Every code on the square's border, on its axes, and on the diamond that becomes the equator. -32768 decodes
+// like -32767, up to rounding.
 TEST_N(DecodesAsPublishedOnTheEdges, 65536) {
     int x = int(testIndex()) - 32768;
     int y = 32767 - min(abs(x), 32767);
@@ -70,7 +70,7 @@ TEST_N(DecodesAsPublishedOnTheEdges, 65536) {
     EXPECT_NEAR(octahedralDecode(code(x, y)).z, 0.0, 4e-5);
 }
 
-// The map is its own mirror image in both coordinates, and across the diagonal.
+// The map is symmetric in both coordinates, and across the diagonal.
 TEST(IsSymmetric) {
     int x = int(randomUint() % 32767u) + 1;
     int y = int(randomUint() % 32767u) + 1;

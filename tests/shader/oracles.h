@@ -29,8 +29,8 @@ struct Budget {
     double floor;
 };
 
-/// Arguments of the functions in single precision as those in double precision take them. Overload it for
-/// structures, in the namespace of the structure.
+/// Converts arguments of the functions in single precision to those of the functions in double precision.
+/// Overload it for structures, in the namespace of the structure.
 inline double widen(float x) {
     return static_cast<double>(x);
 }
@@ -59,7 +59,7 @@ inline double ulpOf(double x) {
            static_cast<double>(magnitude);
 }
 
-/// " (0.5, 1)" for the values of an argument, " ..." for one whose numbers are not known.
+/// " (0.5, 1)" for the values of an argument, " ..." if its numbers are not known.
 template <typename T>
 std::string describeArgument(const T& argument) {
     if constexpr (requires { numbers(argument); }) {
@@ -85,9 +85,9 @@ inline std::string describeStaleMirror() {
     return "";
 }
 
-/// Fails the test unless what the device computed is within the budget of both oracles: `single`, the library
-/// as C++ in float, and `twice`, in double. The report has the worst number in units of the budget with its
-/// arguments, and how many are beyond. An element of each argument an invocation.
+/// Fails the test unless the device's results are within the budget of both oracles: `single`, the library as
+/// C++ in float, and `twice`, in double. The report has the worst number in units of the budget with its
+/// arguments, and how many are beyond it. Each argument has one element per invocation.
 template <typename Result, typename Single, typename Twice, typename... Arguments>
 void expectWithinOracles(const std::source_location& place, std::string_view name,
                          const std::vector<Result>& device, const Budget& budget, Single single, Twice twice,
@@ -118,7 +118,7 @@ void expectWithinOracles(const std::source_location& place, std::string_view nam
 
 #define EXPECT_WITHIN_ORACLES(...) expectWithinOracles(std::source_location::current(), __VA_ARGS__)
 
-/// The type of what a function returns for the first elements of its arguments.
+/// The type of a function's result for the first elements of its arguments.
 template <typename Function, typename... Arguments>
 auto resultOf(Function f, const std::vector<Arguments>&... arguments) {
     return f(arguments.front()...);
@@ -126,8 +126,8 @@ auto resultOf(Function f, const std::vector<Arguments>&... arguments) {
 
 }  // namespace duolux::test
 
-/// One function, by its name: called on the device through `library` and compared with both oracles. Of use
-/// in namespace duolux::test.
+/// Calls a function on the device through `library`, and compares it with both oracles. For use in namespace
+/// duolux::test.
 ///     EXPECT_ORACLES(warp, cosineHemisphere, (Budget{2, 5e-7}), us);
 #define EXPECT_ORACLES(library, function, budget, ...)                                        \
     do {                                                                                      \

@@ -5,8 +5,8 @@
 
 #include "tests/shader/mirror_types.h"
 
-// The sums of lanes against both oracles. pixel_sums_test.glsl and light_path_test.glsl test the expected
-// values.
+// Compares the sums of lanes with both oracles. pixel_sums_test.glsl and light_path_test.glsl test the
+// expected values.
 
 DUOLUX_GLSL_TYPE(duolux::mirror::single::Array<6>, "uint[6]", "");
 DUOLUX_GLSL_TYPE(duolux::mirror::single::LaneSums, "LaneSums", "");
@@ -70,8 +70,7 @@ TEST_F(PixelSumsOracles, Gather) {
               numbers(mirror::single::nothingGathered()));
 }
 
-// Numbers of all sizes; where a sum of six is beside 2^58 quanta or 1e30, precision decides, so that there is
-// none.
+// Numbers of all sizes, except sums of six near 2^58 quanta or 1e30, where the precision decides.
 TEST_F(PixelSumsOracles, Samples) {
     std::vector<PixelSums> before;
     std::vector<Gathered> samples;

@@ -3,8 +3,8 @@
 
 vec3 randomIntegers() { return floor(randomVec3(0.0, 16.0)); }
 
-// Light goes into the sum whatever way it came. Of the last bounces allowed, and of the one before, the mean of the
-// displayed channels is summed apart, too. Multiples of 3 make that mean exact.
+// All light goes into the sum. For the last bounce allowed and the one before it, the mean of the displayed
+// channels is also summed separately. Multiples of 3 make that mean exact.
 TEST(GatheringSumsTheLastBouncesApart) {
     uint bounces = randomUint() % 4u;
     uint scatterings = randomUint() % (bounces + 1u);
@@ -26,7 +26,7 @@ TEST_N(NothingIsGatheredAtFirst, 1) {
     EXPECT_EQ(vec2(g.lastBounce, g.previousBounce), vec2(0.0));
 }
 
-// Sums that hold something in every field, of which a sample may change only its own.
+// Sums with a value in every field, to test that a sample changes only its own.
 FilmRounding someRounding() { return FilmRounding(randomVec3(0.0, 1.0), randomVec3(0.0, 1.0)); }
 
 PixelSums someSums() {
@@ -51,7 +51,8 @@ TEST(SampleIsAddedToItsSums) {
     expectRays(sums);
 }
 
-// In one channel of one component, which is what differs between the invocations: dropped, counted, and nothing else.
+// The wrong value is in one channel of one component: the sample is dropped and counted, and nothing else
+// changes.
 TEST_N(SampleThatIsNotANumberIsDropped, 24) {
     float wrong[4] = float[4](uintBitsToFloat(0x7fc00000u), uintBitsToFloat(0x7f800000u), 2e30, 1.01e30);
     uint channel = testIndex() % 3u;
@@ -67,7 +68,8 @@ TEST_N(SampleThatIsNotANumberIsDropped, 24) {
     expectRays(sums);
 }
 
-// Just below what is an error: kept. Six channels at 2^58 quanta or beyond all together are clamped and counted.
+// Just below the error limit: kept. If all six channels together reach 2^58 quanta, they are clamped and
+// counted.
 TEST_N(BrightSamplesAreClampedAndCounted, 1) {
     PixelSums sums = someSums();
     addSample(sums, Gathered(Light(vec3(0.9e30, 0.0, 1.0), vec3(1.0)), 0.0, 0.0), 1.0, someRounding());
@@ -90,7 +92,7 @@ TEST_N(SumsAreEmptyAtFirst, 1) {
     EXPECT_EQ(vec2(result.lastBounce, result.previousBounce), vec2(0.0));
 }
 
-// Every field holds a number of its own.
+// Every field has a different value.
 TEST_N(ResultHasEveryField, 1) {
     PixelSums sums = PixelSums(FilmSum(uvec2(1u, 2u), uvec2(3u, 4u), uvec2(5u, 6u)), FilmSum(uvec2(7u, 8u),
                              uvec2(9u, 10u), uvec2(11u, 12u)), 13u, 14u, 15u, 16u, 17u, 18u, 19.0, 20.0);

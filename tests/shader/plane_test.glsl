@@ -1,4 +1,4 @@
-// Planes of triangles, where surfaces coincide or triangles are large.
+// Planes of triangles, for surfaces that coincide and for large triangles.
 #include "shaders/lib/plane.glsl"
 
 vec4 stored;
@@ -33,8 +33,8 @@ TEST(DistanceDoesNotDependOnTheOrientation) {
               floatBitsToUint(planeDistance(plane, origin, d)));
 }
 
-// For all sizes, and far from the point nearest to the origin: the remaining distance, also by planeDistance, is within
-// the bound, which is a few roundings of the point's coordinates.
+// For all sizes, and far from the plane's point nearest to the origin: the remaining distance, also by
+// planeDistance, is within the bound, which is a few roundings of the point's coordinates.
 TEST(PointsPutOntoThePlaneAreWithinTheirError) {
     float size = randomScale(-20.0, 20.0);
     vec3 normal = randomDirection();

@@ -10,7 +10,7 @@
 #include "tests/shader/oracles.h"
 #include "tests/support/closed_form.h"
 
-// Lambert's formula against double precision, against formulas for other shapes, against sums over the area.
+// Lambert's formula against double precision, formulas for other shapes, and sums over the area.
 
 namespace duolux::test {
 namespace {
@@ -20,12 +20,12 @@ const ShaderLibrary& polygonLight() {
     return library;
 }
 
-/// A corner and the edges to the others, seen from the receiver, and its normal.
+/// A corner and the edges to the others, relative to the receiver, and the receiver's normal.
 struct Triangle {
     glm::vec3 a, edge1, edge2, normal;
 };
 
-/// By its corners.
+/// From its corners.
 Triangle cornered(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& normal) {
     return {a, b - a, c - a, normal};
 }
@@ -57,8 +57,8 @@ double exact(const Triangle& t) {
     return std::abs(lambertPolygon(Vec3(0.0), glm::normalize(Vec3(t.normal)), corners));
 }
 
-/// The value for a square with the triangle's longest edge that faces the receiver from above: an upper bound
-/// for oblique and thin triangles.
+/// The value for a square with sides as long as the triangle's longest edge, overhead and facing the
+/// receiver: an upper bound for oblique and thin triangles.
 double facing(const Triangle& t) {
     const Vec3 edge1(t.edge1), edge2(t.edge2), middle = Vec3(t.a) + (edge1 + edge2) / 3.0;
     const double longest =
@@ -113,8 +113,8 @@ TEST_F(PolygonLight, TrianglesOfAllSizesAndHeightsMatchDoublePrecision) {
     EXPECT_GT(cut, 5000);
 }
 
-// From a millionth of the distance to the distance itself, above the horizon and cut by it. Where neither
-// cosine is small the error is relative; a small one has an error of its own, from the rounding of the
+// Sizes from a millionth of the distance to the distance itself, above the horizon and cut by it. The error
+// is relative if neither cosine is small; a small cosine has an absolute error from the rounding of the
 // corner's position.
 TEST_F(PolygonLight, SmallTrianglesKeepTheirDigits) {
     std::vector<Triangle> inputs;
@@ -125,7 +125,7 @@ TEST_F(PolygonLight, SmallTrianglesKeepTheirDigits) {
             const float distance = std::exp2(10.0f * uniform_(engine_));
             Triangle t{distance * direction(), size * distance * direction(), size * distance * direction(),
                        direction()};
-            // Every other one has the horizon between its corners.
+            // Every second triangle is cut by the horizon.
             if (i % 2 == 0) {
                 const glm::vec3 inside = t.a + 0.4f * t.edge1 + 0.3f * t.edge2;
                 t.normal = glm::normalize(glm::cross(inside, direction()));
@@ -168,7 +168,7 @@ TEST_F(PolygonLight, LimitsByHand) {
         cornered({-1, 0, -1}, {1, 0, -1}, {0, 0, 1}, up),                 // in the horizon
         cornered({-1e6f, 1, -1e6f}, {1e6f, 1, -1e6f}, {0, 1, 1e6f}, up),  // the whole sky: pi
         cornered({0, 1e-3f, 0}, {1, 1e-3f, 0}, {1, 1e-3f, 0}, up),        // no area
-        cornered({0, 0, 0}, {1, 1, 0}, {0, 1, 1}, up),  // from one of its corners: must be finite
+        cornered({0, 0, 0}, {1, 1, 0}, {0, 1, 1}, up),  // receiver at a corner: must be finite
     };
     const std::vector<float> results = evaluate(inputs);
     EXPECT_EQ(results[0], 0.0f);
@@ -178,8 +178,8 @@ TEST_F(PolygonLight, LimitsByHand) {
     EXPECT_TRUE(std::isfinite(results[4]));
 }
 
-// A rectangle of sides a, b at height c with a corner overhead, of pi times the configuration factor in
-// Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-3 (Hamilton and Morgan, NACA TN
+// A rectangle with sides a and b at height c, one corner of it overhead: pi times the configuration factor
+// B-3 in Howell, "A Catalog of Radiation Heat Transfer Configuration Factors" (Hamilton and Morgan, NACA TN
 // 2836, 1952).
 TEST_F(PolygonLight, RectanglesOverheadHaveTheirConfigurationFactor) {
     std::vector<Triangle> inputs;
@@ -237,7 +237,7 @@ TEST_F(PolygonLight, SumsOverTheAreaAgree) {
         census.compare(i, results[i], expected[i], 2e-4);
 }
 
-// The comment at angleOf: 3e-7. All ratios, and all sizes of sine and cosine.
+// The comment at angleOf states the error, 3e-7. All ratios and all magnitudes of sine and cosine.
 TEST_F(PolygonLight, AnglesAreThoseOfAtan2) {
     std::vector<float> sine, cosine;
     for (int i = 0; i <= 20000; ++i) {

@@ -1,7 +1,7 @@
 // Lambert's formula: properties of the projected solid angle of any triangle.
 #include "shaders/lib/polygon_light.glsl"
 
-// A triangle about a point at distance 1, of a size from a tenth to seven times that; some are cut by the horizon, some
+// A triangle about a point at distance 1, with a size from 0.1 to 7; some are cut by the horizon, some are
 // below it.
 struct Corners {
     vec3 a;
@@ -21,7 +21,7 @@ Corners randomCorners() {
 
 float projected(Corners p) { return projectedSolidAngle(p.a, p.b - p.a, p.c - p.a, p.normal); }
 
-// The sum over up to three triangles, minus a fourth. (A loop, because drivers take long to compile each call.)
+// The sum over up to three triangles, minus a fourth. (A loop, because drivers compile each call slowly.)
 float sumLess(Corners parts[3], int count, Corners whole) {
     float sum = 0.0;
     for (int i = 0; i <= count; i++) {
@@ -36,7 +36,7 @@ float sumLess(Corners parts[3], int count, Corners whole) {
 
 float changed(Corners p, Corners from) { return sumLess(Corners[3](p, p, p), 1, from); }
 
-// The sums of at most six arcs.
+// For sums of at most six arcs.
 const float kTolerance = 3e-6;
 
 TEST(ProjectedSolidAngleIsBetweenNothingAndTheSky) {
@@ -52,7 +52,7 @@ TEST(SplittingATriangleAddsUp) {
     EXPECT_NEAR(sumLess(Corners[3](left, Corners(d, p.b, p.c, p.normal), left), 2, p), 0.0, kTolerance);
 }
 
-// In three, about a point inside.
+// Into three, about a point inside.
 TEST(SplittingATriangleInThreeAddsUp) {
     Corners p = randomCorners();
     vec2 u = randomVec2();
@@ -87,7 +87,7 @@ TEST(MovingCornersTowardsTheReceiverAndAwayChangesNothing) {
     EXPECT_NEAR(changed(Corners(s.x * p.a, s.y * p.b, s.z * p.c, p.normal), p), 0.0, kTolerance);
 }
 
-// The signed sum over the edges of a whole triangle is the part above the horizon less that below.
+// The signed sum over the edges of a whole triangle is the part above the horizon minus the part below.
 TEST(BothSidesOfTheHorizonMakeTheWholeTriangle) {
     Corners p = randomCorners();
     vec3 heights = vec3(dot(p.a, p.normal), dot(p.b, p.normal), dot(p.c, p.normal));
@@ -108,7 +108,7 @@ TEST(BothSidesOfTheHorizonMakeTheWholeTriangle) {
     EXPECT_TRUE(all(lessThanEqual(heights, vec3(0.0))) ? upper == 0.0 : true);
 }
 
-// Of an octahedron around the receiver, in any position: half of it is above the horizon, the whole sky.
+// The faces of an octahedron around the receiver, in any orientation: its upper half covers the whole sky.
 TEST(FacesAllAroundMakeTheWholeSky) {
     vec3 x, y;
     vec3 z = randomDirection();
@@ -138,8 +138,8 @@ TEST(EdgeTurnsItsSignWithItsDirectionAndTheNormal) {
     EXPECT_EQ(edgeIntegral(a, b, -normal), -edge);
 }
 
-// A quarter of a circle about its axis, and about one that lies in its plane; 135 degrees. Then towards one point, and
-// from the receiver itself: no plane, and nothing.
+// A quarter circle about its axis, and about an axis in its plane; 135 degrees. Then an edge between points
+// in the same direction, and an edge from the receiver itself: they span no plane, so the integral is 0.
 TEST_N(EdgesByHand, 5) {
     vec3 from[5] = vec3[5](vec3(2, 0, 0), vec3(2, 0, 0), vec3(2, 0, 0), vec3(1, 2, 3), vec3(0, 0, 0));
     vec3 to[5] = vec3[5](vec3(0, 3, 0), vec3(0, 3, 0), vec3(-1, 1, 0), vec3(2, 4, 6), vec3(2, 4, 6));
@@ -154,7 +154,7 @@ TEST(HorizonPointIsOnTheEdgeAndOnTheHorizon) {
     vec3 b = randomVec3(-1.0, 1.0);
     float da = dot(a, normal);
     float db = dot(b, normal);
-    // Ends on different sides, neither near the horizon.
+    // The ends are on different sides of the horizon, and not near it.
     a += normal * (0.1 + abs(da) - da);
     b -= normal * (0.1 + abs(db) + db);
     vec3 h = horizonPoint(a, b, dot(a, normal), dot(b, normal));

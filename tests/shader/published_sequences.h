@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-// The library's random numbers and Sobol points once more, from what was published and not from its code.
+// Independent implementations of the library's random numbers and Sobol points, from the publications.
 
 namespace duolux::test {
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kRecords = 4;
 
-/// What words of a record hold, as the numbers that the device returns: by field, its name without index.
+/// The sentinels in these fields of a record, as the numbers that the device returns. Names have no index.
 template <typename S>
 std::vector<double> sentinelNumbers(std::size_t record, const std::vector<std::string>& fields) {
     std::vector<double> out;
@@ -133,8 +133,8 @@ TEST(RecordLayout, NormalsAreFetchedVertexByVertex) {
         EXPECT_LT(glm::length(normals[i] - expected[i]), 1e-6f) << i;
 }
 
-/// A node whose every byte is its own: units of 1, 2 and 1/2, children apart from each other along all axes.
-/// Even slots hold nodes, odd ones leaves.
+/// A node with distinct bytes: units of 1, 2 and 1/2, children separated along all axes. Even slots hold
+/// nodes, odd slots hold leaves.
 shared::WideNode probedNode() {
     shared::WideNode node{};
     const std::array<float, 3> origin{-100.0f, 20.0f, 3.0f};
@@ -143,7 +143,7 @@ shared::WideNode probedNode() {
         node.origin[axis] = origin[axis];
         node.exponent[axis] = exponent[axis];
         for (std::size_t slot = 0; slot < 8; ++slot) {
-            // Along every axis the children have another order.
+            // The order of the children differs between axes.
             const std::size_t place = (slot * (2 * axis + 1) + axis) % 8;
             node.lower[axis][slot] = static_cast<std::uint8_t>(5 + 31 * place + axis);
             node.upper[axis][slot] = static_cast<std::uint8_t>(5 + 31 * place + axis + 9 + slot);
@@ -161,7 +161,7 @@ shared::WideNode probedNode() {
     return node;
 }
 
-/// A ray along an axis through the middle of a child, and what visiting the node has to leave.
+/// A ray along an axis through the middle of a child, and the expected result of visiting the node.
 struct NodeProbes {
     std::vector<glm::vec3> origin, direction;
     std::vector<float> tMin, tMax;
@@ -183,7 +183,7 @@ void probeChild(NodeProbes& probes, const shared::WideNode& node, std::uint32_t 
     const float leave = sign > 0.0f ? upper[axis] : lower[axis];
     origin[axis] = node.origin[static_cast<std::size_t>(axis)] - sign * 1000.0f;
     const float near = std::abs(entry - origin[axis]), far = std::abs(leave - origin[axis]);
-    const float step = 0.25f * unit[axis];  // a quarter of what one in a byte makes
+    const float step = 0.25f * unit[axis];  // a quarter of the unit
     const std::uint32_t octant = (axis == 0 && sign < 0.0f ? 0u : 4u) | (axis == 1 && sign < 0.0f ? 0u : 2u) |
                                  (axis == 2 && sign < 0.0f ? 0u : 1u);
     glm::uvec4 hit(0u, 0u, node.pairBase, (node.meta[slot] >> 5u) << (node.meta[slot] & 31u));
@@ -196,7 +196,7 @@ void probeChild(NodeProbes& probes, const shared::WideNode& node, std::uint32_t 
         probes.tMax.push_back(tMax);
         probes.expected.push_back(hits ? hit : glm::uvec4(0u, 0u, node.pairBase, 0u));
     };
-    // The intervals that just fail to reach the planes of the child's box, and that just do.
+    // Intervals that just fail to reach the planes of the child's box, and intervals that just reach them.
     add(0.0f, near - step, false);
     add(0.0f, near + step, true);
     add(far + step, 1e30f, false);
@@ -217,7 +217,7 @@ TEST(RecordLayout, NodesAreVisitedByteByByte) {
     library.define(
         "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }"
         "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }");
-    // Where no inner child is hit there is no group, and its base means nothing.
+    // If no inner child is hit, there is no group, and its base is undefined.
     const auto seen = library.evaluate<glm::uvec4>(
         "Traversal r = traversalStart(2u, x0, x1, x2, 0u, x3, false); visitNode(r);"
         "bool group = r.groupMask > 0x00ffffffu;"

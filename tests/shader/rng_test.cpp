@@ -10,7 +10,7 @@
 #include "tests/shader/published_sequences.h"
 #include "tests/shader/uniformity.h"
 
-// The random numbers: equal to the published ones, uniform, and uncorrelated with their counters.
+// Random numbers: equal to the published ones, uniform, and uncorrelated with their counters.
 
 namespace duolux::test {
 namespace {
@@ -58,9 +58,9 @@ TEST(Rng, FloatsAreTheUpperBits) {
     EXPECT_EQ(ends, (std::vector<float>{0.0f, 0.0f, 0x1p-24f, 0.5f, 1.0f - 0x1p-24f}));
 }
 
-/// For a counter in each of the four inputs, as pixels, samples, dimensions and seeds are: every word by its
-/// upper bits, by the bits that end a float, and by pairs of consecutive words; every two words; and floats
-/// in a number of bins that is no power of two. A false alarm once in 10^4.
+/// A counter in each of the four inputs, like pixels, samples, dimensions and seeds. Tests every word by its
+/// upper bits, by the lowest bits of its float, and by pairs of consecutive words; every pair of words; and
+/// floats in a number of bins that is not a power of two. One false alarm in 10^4.
 TEST(Rng, WordsAreUniformAndIndependent) {
     constexpr std::uint32_t kCount = 1 << 16;
     Family family;
@@ -100,7 +100,7 @@ TEST(Rng, WordsAreUniformAndIndependent) {
     family.expect(1e-4);
 }
 
-/// How often each output bit changes with an input bit, [input bit][output bit], over random inputs.
+/// How often each input bit changes each output bit, [input bit][output bit], over random inputs.
 std::vector<std::vector<double>> avalanche(std::size_t inputs) {
     const std::vector<glm::uvec4> base = randomWords4(inputs, 2);
     std::vector<glm::uvec4> flipped;
@@ -125,10 +125,10 @@ std::vector<std::vector<double>> avalanche(std::size_t inputs) {
     return rate;
 }
 
-/// Each of the lower 20 bits of an input, which is where counters are, changes each bit of a float half of
-/// the time; higher ones change the upper 16 bits often enough. (The lower ones it cannot reach: sums and
-/// products carry upwards only, and the shift between the two rounds is by 16 bits.) 80 x 96 rates of 2048
-/// inputs, whose deviation is 0.011: a false alarm beyond 0.07 less than once in 10^4.
+/// Each of the lower 20 bits of an input, where counters are, changes each bit of a float half of the time;
+/// higher bits change the upper 16 bits often enough. (They cannot reach the lower bits: sums and products
+/// carry only upwards, and the shift between the two rounds is by 16 bits.) 80 x 96 rates over 2048 inputs
+/// have a deviation of 0.011: less than one false alarm beyond 0.07 in 10^4.
 TEST(Rng, EveryInputBitChangesHalfOfTheFloat) {
     const std::vector<std::vector<double>> rate = avalanche(2048);
     for (std::size_t in = 0; in < 128; ++in) {

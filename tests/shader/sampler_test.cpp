@@ -26,7 +26,7 @@ const ShaderLibrary& sampler() {
     return library;
 }
 
-/// What a sample is named by.
+/// The numbers that identify a sample.
 struct Name {
     std::uint32_t pixel, sample, dimension, seed;
 };
@@ -53,7 +53,7 @@ Words draw(std::uint32_t kind, const std::vector<Name>& names) {
     return words;
 }
 
-/// The names of `count` samples, counted by one of the members.
+/// The names of `count` samples, of which one member counts up.
 std::vector<Name> counted(std::uint32_t Name::*member, std::uint32_t count, Name first = {5, 0, 4, 1}) {
     std::vector<Name> names(count, first);
     for (std::uint32_t i = 0; i < count; ++i)
@@ -84,7 +84,7 @@ TEST(Sampler, WordsAreThoseOfThePublishedGenerators) {
     }
 }
 
-/// Of the first 2^m samples of a pixel's dimension, as the kernels draw them: one in each elementary
+/// The first 2^m samples of a pixel's dimension, as kernels draw them, have one point in each elementary
 /// interval.
 TEST(Sampler, SobolPairsOfAnyPixelAndDimensionAreNets) {
     for (const std::uint32_t pixel : {0u, 1u, 77777u}) {
@@ -112,9 +112,9 @@ TEST(Sampler, SobolPairsOfAnyPixelAndDimensionAreNets) {
     }
 }
 
-/// Pairs and choices fall evenly into squares as any part of the name is counted, and so does each number
-/// with the next one of its sequence; for Sobol points the samples in the sequence do not count as
-/// independent, because they are better than that. A false alarm once in 10^4.
+/// As any part of the name counts up, pairs and choices fall evenly into squares, and so does each number
+/// with its successor. Consecutive samples of Sobol pairs are excepted, because they are more even than
+/// independent numbers. One false alarm in 10^4.
 TEST(Sampler, NumbersAreUniformAndSeriallyIndependent) {
     constexpr std::uint32_t kCount = 1 << 16;
     Family family;
@@ -139,7 +139,7 @@ TEST(Sampler, NumbersAreUniformAndSeriallyIndependent) {
     family.expect(1e-4);
 }
 
-/// Sequences of samples whose names differ in one part, by a step as it occurs: the next pixel, the one below
+/// Sequences of samples whose names differ by a step that occurs in renders: the next pixel, the pixel below
 /// at a width of 512, the next purpose, crossing and scattering event, the next seed.
 const std::vector<std::pair<const char*, Name>> kSteps{{"next pixel", {1, 0, 0, 0}},
                                                        {"pixel below", {512, 0, 0, 0}},
@@ -149,11 +149,10 @@ const std::vector<std::pair<const char*, Name>> kSteps{{"next pixel", {1, 0, 0, 
                                                        {"next seed", {0, 0, 0, 1}},
                                                        {"next pixel and seed", {1, 0, 0, 1}}};
 
-/// The correlation of two independent, uniform sequences of n numbers has mean 0, and deviation 1 / sqrt(n)
-/// if they are random. Those of Sobol points with independent keys may be more alike or more unlike (1.25 /
-/// sqrt(n) is what they have), but not one more often than the other. Student's t of the mean over 128
-/// places, for each component with each, with a false alarm once in 10^4; and the root mean square within 2 /
-/// sqrt(n).
+/// The correlation of two independent uniform sequences of n random numbers has mean 0 and deviation 1 /
+/// sqrt(n). Sobol points with independent keys may have larger correlations (their deviation is 1.25 /
+/// sqrt(n)), but of both signs equally often. Tests the mean over 128 places with Student's t for every pair
+/// of components, with one false alarm in 10^4, and requires a root mean square below 2 / sqrt(n).
 TEST(Sampler, PixelsDimensionsAndSeedsAreUncorrelated) {
     constexpr std::uint32_t kPlaces = 128;
     constexpr std::uint32_t kSamples = 256;
@@ -193,7 +192,7 @@ TEST(Sampler, PixelsDimensionsAndSeedsAreUncorrelated) {
     family.expect(1e-4);
 }
 
-/// Over many places the same sample of two sequences falls evenly into the squares of (one, the other).
+/// Over many places, equal samples of two sequences fall evenly into the squares of (one, other).
 TEST(Sampler, NeighboursAreJointlyUniform) {
     constexpr std::uint32_t kPlaces = 1 << 14;
     Family family;

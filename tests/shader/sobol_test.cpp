@@ -37,7 +37,7 @@ TEST(Sobol, SecondDimensionMatchesTheDirectionNumbers) {
         ASSERT_EQ(reversed(outputs[i]), publishedSobol(inputs[i], 1)) << inputs[i];
 }
 
-/// Every bit of the index by itself. The numbers were computed once by a program in another language.
+/// Each bit of the index separately. The numbers were computed once by a program in another language.
 TEST(Sobol, DirectionNumbersAreThose) {
     const std::vector<std::uint32_t> expected{
         0x80000000u, 0xc0000000u, 0xa0000000u, 0xf0000000u, 0x88000000u, 0xcc000000u, 0xaa000000u,
@@ -69,7 +69,7 @@ TEST(Sobol, ScramblingIsThePublishedHash) {
                                           0xfb1d0b68u}));
 }
 
-/// Of numbers with the same lower 16 bits the results have the same, and all 2^16 occur.
+/// Numbers with equal lower 16 bits have results with equal lower 16 bits, and all 2^16 values occur.
 TEST(Sobol, ScramblingIsAPermutationOfTheLowerBits) {
     for (const std::uint32_t seed : {0u, 1u, 0x80000000u, 0xffffffffu, 0x9e3779b9u}) {
         std::vector<bool> seen(1 << 16);
@@ -80,8 +80,8 @@ TEST(Sobol, ScramblingIsAPermutationOfTheLowerBits) {
     }
 }
 
-/// Whether bit k flips is, over the seeds, a fair coin: for the same number, and for two that differ in the
-/// bit below (k > 0) independently of one another. For seeds that are a hash's words.
+/// Over the seeds, bit k flips with probability 1/2, and independently for two numbers that differ in the bit
+/// below (k > 0). The seeds are words of a hash.
 TEST(Sobol, SeedsScrambleIndependently) {
     constexpr std::uint32_t kSeeds = 1 << 14;
     const std::vector<std::uint32_t> seeds = randomWords(kSeeds, 3);
@@ -112,8 +112,8 @@ TEST(Sobol, PairsMatchThePublishedConstruction) {
         census.compare(i, points[i], publishedPair(indices[i], keys[i]));
 }
 
-/// Whether every elementary interval of 2^m points, 2^-a by 2^-(m - a) for each a, holds exactly one of them:
-/// a (0, m, 2)-net in base 2.
+/// Whether every elementary interval of 2^m points, 2^-a by 2^-(m - a) for each a, holds exactly one point: a
+/// (0, m, 2)-net in base 2.
 testing::AssertionResult isNet(std::span<const glm::uvec2> points, int m) {
     const auto cell = [](std::uint32_t x, int bits) { return bits == 0 ? 0u : x >> (32 - bits); };
     for (int a = 0; a <= m; ++a) {
@@ -130,8 +130,8 @@ testing::AssertionResult isNet(std::span<const glm::uvec2> points, int m) {
     return testing::AssertionSuccess();
 }
 
-/// Shuffling and scrambling keep what Sobol's points are: every aligned run of 2^m is a net, m = 1..10 (a
-/// (0, 2)-sequence). Runs at the start, further on, and at the end of the indices.
+/// Shuffling and scrambling preserve the nets of Sobol points: every aligned run of 2^m points is a net, m =
+/// 1..10 (a (0, 2)-sequence). Runs at the start, in the middle and at the end of the indices.
 TEST(Sobol, EveryAlignedRunOfAnyPairIsANet) {
     constexpr std::uint32_t kPoints = 1 << 11;
     for (const glm::uvec4& key : randomWords4(8, 6)) {

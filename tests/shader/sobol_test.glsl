@@ -1,8 +1,8 @@
 // Owen-scrambled Sobol points.
 #include "shaders/lib/sobol.glsl"
 
-// Nested: bit k of the result is bit k of the number, flipped or not by what the seed makes of the bits below. Hence
-// also one-to-one.
+// Nested scrambling: bit k of the result is bit k of the number, flipped depending on the seed and the bits
+// below. Hence it is one-to-one.
 TEST(ScramblingFlipsBitsByLowerOnes) {
     uint x = randomUint();
     uint seed = randomUint();
@@ -23,7 +23,7 @@ TEST(SecondDimensionIsLinear) {
     EXPECT_EQ(sobolSecondReversed(sobolSecondReversed(a)), a);  // the Pascal matrix modulo 2 is its own inverse
 }
 
-// The two points of an aligned run of two are in opposite halves of either axis.
+// The two points of an aligned pair of indices are in opposite halves of each axis.
 TEST(NeighboursAreInOppositeHalves) {
     uvec4 key = uvec4(randomUint(), randomUint(), randomUint(), randomUint());
     uint index = randomUint();

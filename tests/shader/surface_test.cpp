@@ -36,9 +36,8 @@ struct Hits {
     std::vector<glm::vec3> normals, rays;
 };
 
-/// Scenes of a size from 1e-3 to 1e6 (of every power of two between), the triangles as large as the scene, or
-/// down to 2^-10 of it and somewhere off the origin. At corners, on edges, inside. Rays from both sides, many
-/// of them grazing.
+/// Scenes of sizes from 1e-3 to 1e6. Triangles are as large as the scene, or down to 2^-10 of it and away
+/// from the origin. Points at corners, on edges and inside. Rays from both sides, many of them grazing.
 Hits hits(std::size_t n) {
     const std::vector<float> sizes = randomScales(n, std::log2(1e-3), std::log2(1e6), 1);
     const std::vector<float> shrinks = randomScales(n, -10.0, 0.0, 2);
@@ -79,7 +78,7 @@ std::vector<SurfacePoint> pointsOf(const Hits& h, std::uint32_t smooth) {
                                             h.triangles, h.barycentrics, h.normals, h.rays, smooth);
 }
 
-/// The same barycentric coordinates in double.
+/// The point with the same barycentric coordinates in double precision.
 glm::dvec3 exactPoint(const Triangle& t, const glm::vec2& barycentric) {
     const glm::dvec2 b(barycentric);
     return glm::dvec3(t.v0) * (1.0 - b.x - b.y) + glm::dvec3(t.v1) * b.x + glm::dvec3(t.v2) * b.y;
@@ -93,9 +92,9 @@ double largestCoordinate(const Triangle& t) {
     return largest;
 }
 
-/// 32 units of roundoff of the largest coordinate. What a point needs of that is less than a quarter: with u
-/// = 2^-24, three products (u each), the first weight (2 u), and two sums (2 u) of numbers that are no
-/// larger, along the normal sqrt(3) times as much.
+/// 32 units of roundoff of the largest coordinate. A point needs less than a quarter of that: with u = 2^-24,
+/// three products (u each), the first weight (2 u) and two sums (2 u) of numbers that are no larger, times
+/// sqrt(3) along the normal.
 TEST(Surface, PointErrorBoundsTheRoundingOfPoints) {
     const Hits h = hits(1 << 16);
     const std::vector<glm::vec3> points =
@@ -113,8 +112,8 @@ TEST(Surface, PointErrorBoundsTheRoundingOfPoints) {
     EXPECT_GT(worst, 0.03);  // the inputs do have rounding errors
 }
 
-/// In double, the position is on the ray's side of the triangle's plane, in all scales, by the error that was
-/// allowed for; and nowhere else than at the point that was hit.
+/// In double precision, the position is off the triangle's plane on the ray's side, at all scales, by the
+/// allowed error, and does not deviate from the hit point otherwise.
 TEST(Surface, PositionIsOffTheSurfaceOnTheRaysSide) {
     const Hits h = hits(1 << 16);
     const std::vector<SurfacePoint> points = pointsOf(h, 1);  // smooth normals must not matter
@@ -130,8 +129,8 @@ TEST(Surface, PositionIsOffTheSurfaceOnTheRaysSide) {
     }
 }
 
-/// Coordinates in the frame, and back, against dot products with the axes in double; the way back is unit in
-/// double.
+/// Coordinates in the frame, and back, against dot products with the axes in double precision. Directions
+/// transformed back have unit length.
 TEST(Surface, FramesMatchDoublePrecision) {
     const std::vector<glm::vec3> normals = randomDirections(1 << 14, 5);
     const std::vector<glm::vec3> directions = randomDirections(1 << 14, 6);
@@ -140,7 +139,7 @@ TEST(Surface, FramesMatchDoublePrecision) {
     const std::vector<glm::vec3> world =
         ShaderLibrary("shaders/lib/frame.glsl").call<glm::vec3>("fromFrame", normals, directions);
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        // The rotation from z to the normal by the smaller angle; below the equator the rotation from -z,
+        // The rotation from z to the normal by the smaller angle; below the equator, the rotation from -z
         // with the second axis negated.
         const double side = normals[i].z < 0.0f ? -1.0 : 1.0;
         const glm::dvec3 n(normals[i]);
@@ -171,7 +170,7 @@ TEST(Surface, WithPlanesPointsAreAsExactAsTheirOwnSize) {
     std::vector<glm::vec3> at;
     std::vector<SurfacePoint> points;
     for (const glm::vec3& d : randomDirections(2000, 12)) {
-        // Near the plane, up to 100 away from the origin.
+        // Near the plane, up to 100 from the origin.
         const glm::vec3 across = 100.0f * glm::pow(std::abs(d.x), 4.0f) * glm::normalize(d);
         at.push_back(across - normal * (glm::dot(normal, across) - plane.w) + 1e-5f * d);
         const float side = at.size() % 2 == 0 ? 1.0f : -1.0f;
@@ -201,14 +200,14 @@ TEST(Surface, WithPlanesPointsAreAsExactAsTheirOwnSize) {
                 EXPECT_LT(std::abs(along), 4e-7 * size);
                 EXPECT_LT(static_cast<double>(std::abs(begins[i].x)), 1e-6 * size);
                 EXPECT_EQ(begins[i].z, 0.0f);
-                // It leaves by the front or by the back: 5, or the complement of it.
+                // The order is 5 on the front, and its complement on the back.
                 EXPECT_EQ(begins[i].w, i % 2 == 1 ? 1.0f : 0.0f);
             }
         }
     }
 }
 
-/// Positions in units of the triangle's size, so that one budget serves all.
+/// Positions in units of the triangle's size, so that one budget suffices.
 TEST(SurfaceOracles, AllFunctions) {
     mirror::texels().normals = {{kCorners.octahedral[0], kCorners.octahedral[1], kCorners.octahedral[2], 0u}};
     Hits h = hits(1 << 13);
@@ -228,8 +227,8 @@ TEST(SurfaceOracles, AllFunctions) {
     const ShaderLibrary frame("shaders/lib/frame.glsl");
     EXPECT_ORACLES(frame, toFrame, (Budget{1, 6e-7}), h.normals, h.rays);
     EXPECT_ORACLES(frame, fromFrame, (Budget{1, 6e-7}), h.normals, h.rays);
-    // The quotient of two cosines, of which the one below is not so small that its rounding is all there is;
-    // and neither near 0, where single and double may fall on different sides.
+    // The quotient of two cosines. Keeps the denominator away from 0, where its rounding dominates, and both
+    // away from 0, where single and double precision may see different sides.
     std::vector<SurfacePoint> points;
     std::vector<glm::vec3> wi;
     for (std::size_t i = 0; i < h.rays.size(); ++i) {

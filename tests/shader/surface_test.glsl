@@ -38,7 +38,7 @@ Triangle randomTriangle(uint flags) {
     return Triangle(a, b, randomVec3(-1.0, 1.0), randomUint(), flags);
 }
 
-// In the plane z = 0, its front above.
+// A triangle in the plane z = 0 that faces up.
 Triangle flatTriangle(uint flags) {
     return Triangle(vec3(-1.0, -1.0, 0.0), vec3(3.0, -1.0, 0.0), vec3(-1.0, 3.0, 0.0), 0u, flags);
 }
@@ -64,7 +64,7 @@ TEST(PositionIsMovedOffByItsError) {
     EXPECT_NEAR(point.position, expected, 1.2e-7);
 }
 
-// Only if the triangle has smooth normals, and if they are asked for.
+// Only if the triangle has smooth normals, and the caller asks for them.
 TEST(SmoothNormalsAreUsedOnlyIfFlagged) {
     setCorners(1.0);
     vec3 ray = vec3(0.3, 0.2, -1.0);
@@ -96,7 +96,7 @@ TEST(BothNormalsAreOnOneSide) {
     EXPECT_NEAR(point.shadingNormal, smoothed * (side * corners), 2e-7);
 }
 
-// A ray along the surface, or nearly so that products underflow, has no side; the normals still agree on one.
+// A ray along the surface, or so nearly that products underflow, has no side; the normals still agree on one.
 TEST(BothNormalsAreOnOneSideOfAGrazingRay) {
     setCorners((randomUint() & 1u) == 0u ? 1.0 : -1.0);
     float tiny = (randomUint() & 1u) == 0u ? 0.0 : randomScale(-126.0, -120.0);
@@ -120,7 +120,7 @@ TEST_N(AdjointKnownAnswers, 1) {
     EXPECT_NEAR(shadingAdjoint(point, z), 0.5, 1e-6);
     EXPECT_NEAR(shadingAdjoint(point, tilted), 2.0, 1e-6);
     EXPECT_NEAR(shadingAdjoint(point, vec3(0.0, 0.6, 0.8)), 0.5, 1e-6);
-    // Seen by one of the normals only, by neither, or in the plane of one or both.
+    // Above the horizon of only one of the normals, of neither, or on the horizon of one or both.
     EXPECT_EQ(shadingAdjoint(point, vec3(-0.8, 0.0, 0.6)), 0.0);
     EXPECT_EQ(shadingAdjoint(point, vec3(0.96, 0.0, -0.28)), 0.0);
     EXPECT_EQ(shadingAdjoint(point, -z), 0.0);
@@ -130,8 +130,8 @@ TEST_N(AdjointKnownAnswers, 1) {
     EXPECT_EQ(shadingAdjoint(pointWithNormals(z, z), vec3(0.0, 0.6, 0.8)), 1.0);
 }
 
-// |wi . Ns| / |wi . Ng| where both normals see wi, else 0 (Veach 1997, section 5.3): times f and the cosine to the
-// geometric normal it is what gathering does, f times the cosine to the shading normal.
+// |wi . Ns| / |wi . Ng| if both normals see wi, else 0 (Veach 1997, section 5.3): times f and the geometric
+// cosine, it is what gathering computes: f times the shading cosine.
 TEST(AdjointIsItsDefinition) {
     vec3 geometric = randomDirection();
     vec3 shading = normalize(geometric + 0.9 * randomDirection());
@@ -168,7 +168,7 @@ TEST(FromFrameIsUnit) {
     EXPECT_NEAR(length(fromFrame(hardNormal(), w)), 1.0, 3e-7);
 }
 
-// Without stored planes, a point does not move, and a ray that leaves it starts at the point.
+// Without stored planes, points do not move, and rays that leave them start there.
 TEST(WithoutPlanesNothingIsMoved) {
     SurfacePoint point = pointWithNormals(randomDirection(), randomDirection());
     point.position = randomVec3(-1.0, 1.0);
@@ -182,7 +182,7 @@ TEST(WithoutPlanesNothingIsMoved) {
     EXPECT_EQ(segment.order, kNoTriangle);
 }
 
-// A ray leaves from the side that it goes to, by the bound on the point's error.
+// A ray starts on the side to which it leaves, at the distance of the point's error bound.
 TEST(RayLeavesOnItsOwnSide) {
     Triangle tri = randomTriangle(0u);
     vec2 b = randomBarycentric();

@@ -41,7 +41,7 @@ inline void addTriangle(Geometry& geometry, glm::vec3 a, glm::vec3 b, glm::vec3 
     geometry.materials.push_back(0);
 }
 
-/// Of the last triangle, across the edge between its first corners: the two are a pair.
+/// Adds a neighbour of the last triangle across the edge between its first corners: the two are a pair.
 inline void addNeighbour(Geometry& geometry, glm::vec3 corner) {
     const glm::uvec3 last = geometry.triangles.back();
     geometry.triangles.push_back({last.y, last.x, static_cast<std::uint32_t>(geometry.positions.size())});
@@ -62,13 +62,13 @@ inline Geometry soup(int count, float scale, glm::vec3 centre = glm::vec3(0.0f))
         if (i % 2 == 0) addNeighbour(geometry, a + size * neighbours.inBox(1.0f));
         if (i % 17 == 0) addTriangle(geometry, a, a, a);                              // a point
         if (i % 19 == 0) addTriangle(geometry, a, b, a + 0.5f * (b - a));             // a line
-        if (i % 23 == 0) addTriangle(geometry, a, b, c);                              // twice the same
+        if (i % 23 == 0) addTriangle(geometry, a, b, c);                              // a copy
         if (i % 29 == 0) addTriangle(geometry, a, {b.x, a.y, a.z}, {b.x, b.y, a.z});  // flat along an axis
     }
     return geometry;
 }
 
-/// Corners of a latitude-longitude sphere of radius 1, closed; its triangles at the poles are slivers.
+/// A latitude-longitude sphere of radius 1, closed; its triangles at the poles are slivers.
 inline Geometry latitudeSphere(int rings, int segments) {
     Geometry geometry;
     const auto vertex = [&](int ring, int segment) {
@@ -116,8 +116,7 @@ inline Geometry gridCube(int n) {
     return builder.scene.geometry;
 }
 
-/// Moves the corners of a mesh around the origin in and out, by up to `amount`, each by a hash of where it
-/// is.
+/// Moves the corners of a mesh about the origin in and out by up to `amount`, depending on their positions.
 inline Geometry displaced(Geometry geometry, float amount) {
     for (glm::vec3& p : geometry.positions) {
         const float wave = std::sin(17.0f * p.x + 5.0f * p.y) * std::cos(13.0f * p.z - 7.0f * p.y);

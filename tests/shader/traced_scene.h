@@ -10,7 +10,7 @@
 #include "host/scene/scene.h"
 #include "tests/shader/harness/shader_function.h"
 
-// The traversal on the device, through the tree of a scene, and every triangle tested without it.
+// The traversal on the device through the tree of a scene, and a test of every triangle without the tree.
 
 namespace duolux::test {
 
@@ -60,7 +60,7 @@ struct DeviceTree {
     std::uint32_t triangles() const { return 2 * static_cast<std::uint32_t>(pairs.size()); }
 };
 
-/// `primitives`: of the triangles, two a pair; they are numbered if there are none.
+/// `primitives`: of the triangles, two per pair; consecutive numbers if empty.
 inline void append(DeviceTree& tree, const Geometry& geometry, const WideBvh& bvh,
                    const std::vector<std::uint32_t>& primitives = {}) {
     const auto firstNode = static_cast<std::uint32_t>(tree.nodes.size());
@@ -81,7 +81,7 @@ inline void append(DeviceTree& tree, const Geometry& geometry, const WideBvh& bv
 }
 
 /// Functions of the traversal for this tree; nodesFetched counts visits. closestOfAll tests a ray against all
-/// triangles without a tree, in the order of (distance, order).
+/// triangles without the tree, in the order of (distance, order).
 inline ShaderLibrary traversalOf(const DeviceTree& tree) {
     ShaderLibrary library("shaders/lib/traverse.glsl");
     library.define(R"(
@@ -92,7 +92,7 @@ inline ShaderLibrary traversalOf(const DeviceTree& tree) {
             nodesFetched += index % kNodeTexels == 0u ? 1u : 0u;
             return storedNodeTexel(index);
         }
-        // A triangle's number, or that of its neighbour if its pair lacks it.
+        // A triangle's index, or its neighbour's if the pair lacks it.
         uint presentTriangle(uint index) {
             return fetchTriangle(index).primitive == kNoTriangle ? index ^ 1u : index;
         }
@@ -126,7 +126,7 @@ inline std::vector<TestHit> trace(const ShaderLibrary& traversal, const std::vec
                                        rays, options);
 }
 
-/// A scene whose tree is built by the library. Primitives are the numbers of triangles on the device.
+/// A scene with a tree built by the library. Primitives are the indices of triangles on the device.
 struct TracedScene {
     explicit TracedScene(Geometry mesh) : geometry(std::move(mesh)), bvh(buildWideBvh(geometry)) {
         append(tree, geometry, bvh);
@@ -135,7 +135,7 @@ struct TracedScene {
         return test::trace(traversalOf(tree), rays, options);
     }
 
-    /// In the geometry.
+    /// Index in the geometry.
     std::uint32_t triangleOf(std::uint32_t primitive) const {
         const TrianglePair& pair = bvh.pairs.at(primitive / 2);
         return primitive % 2 == 0 ? pair.first : pair.second;
@@ -146,11 +146,11 @@ struct TracedScene {
     DeviceTree tree;
 };
 
-/// A ray walked over all it crosses, by the tree and by closestOfAll at once. (Lavapipe ends all loops of an
-/// invocation silently after 65,535 iterations: crossings times triangles must stay well below.)
+/// Follows a ray through all its crossings, by the tree and by closestOfAll. (Lavapipe silently ends all
+/// loops of an invocation after 65,535 iterations: crossings times triangles must stay well below that.)
 struct Walk {
     std::uint32_t crossings;
-    std::uint32_t differences;  ///< steps at which the two do not agree to the bit
+    std::uint32_t differences;  ///< steps at which the two are not bitwise identical
 };
 
 }  // namespace duolux::test

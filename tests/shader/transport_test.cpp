@@ -135,8 +135,7 @@ TEST(Transport, MultiplicationLeavesOutOnlyASecondColumnThatIsZero) {
     expectProducts(transport().constant(shared::kSpecSecondColumn, 1), a, b);
 }
 
-/// Importance of all patterns: which of the four entries are there, in which one channel. The other channels
-/// hold nothing: each alone has to count.
+/// Importance with every pattern of non-zero entries, in a single channel: each channel alone must count.
 std::vector<Matrix> importances() {
     std::vector<Matrix> out;
     for (int pattern = 0; pattern < 16; ++pattern) {
@@ -152,7 +151,7 @@ std::vector<Matrix> importances() {
     return out;
 }
 
-/// Whether importance can be left after any matrix whose rows (invisible, visible) may hold something.
+/// Whether importance can remain after a matrix whose rows (invisible, visible) may be non-zero.
 bool anythingLeft(const Matrix& w, bool invisibleRow, bool visibleRow) {
     const double i = invisibleRow ? 1.0 : 0.0, v = visibleRow ? 1.0 : 0.0;
     const auto left = channels(w) * reference::ChannelMatrix{{{i, i, v, v}, {i, i, v, v}, {i, i, v, v}}};
@@ -161,7 +160,7 @@ bool anythingLeft(const Matrix& w, bool invisibleRow, bool visibleRow) {
 
 constexpr const char* kWhatCan = "result = uvec2(canScatter(x0), canCross(x0));";
 
-// By definition: no if and only if W F = 0 for every F with the rows that the constants allow.
+// By definition: no, if and only if W F = 0 for every F with the rows that the constants allow.
 TEST(Transport, CanScatterAndCrossExactlyWhereSomethingMayBeLeft) {
     const std::vector<Matrix> ws = importances();
     for (std::uint32_t bits = 0; bits < 16; ++bits) {
@@ -187,8 +186,8 @@ Scene sceneOf(const LightMatrix& opaque, const LightMatrix& transparent) {
     return builder.scene;
 }
 
-// With the constants that the host derives from a scene's matrices no importance is lost: of O and T with any
-// pattern of zeros, an entry in one channel only.
+// The constants that the host derives from a scene's matrices lose no importance, for O and T with any
+// pattern of zeros and with each entry in one channel only.
 TEST(Transport, ConstantsOfAnySceneLoseNoImportance) {
     const std::vector<Matrix> ws = importances();
     for (int pattern = 0; pattern < 16; ++pattern) {
@@ -217,7 +216,7 @@ TEST(Transport, ConstantsOfAnySceneLoseNoImportance) {
     }
 }
 
-/// Sets the mirror's constants for as long as it lives.
+/// Sets the mirror's constants for its lifetime.
 class MirrorConstants {
   public:
     MirrorConstants(bool secondColumn, bool scatters, bool crosses, bool oneReflectance) {

@@ -96,7 +96,7 @@ std::vector<TestRay> randomRays(int count, float scale, glm::vec3 centre = glm::
     return rays;
 }
 
-/// The smallest triangles of a soup have edges of a hundredth of its scale; their areas must be floats.
+/// The smallest edges of a soup are a hundredth of its scale; floats must represent such areas.
 class TraversalAtScale : public testing::TestWithParam<float> {};
 
 TEST_P(TraversalAtScale, NearestHitsMatchBruteForce) {
@@ -196,7 +196,7 @@ TEST(Traversal, AllCrossingsAreMetOnce) {
     EXPECT_GT(crossings, 500u);
 }
 
-// Scenes that trees find hard.
+// Scenes that are difficult for trees.
 
 Geometry coincident() {
     Geometry geometry;
@@ -205,7 +205,7 @@ Geometry coincident() {
     return geometry;
 }
 
-/// Grids in three planes along the axes: boxes without volume.
+/// Grids in three axis-parallel planes: boxes without volume.
 Geometry flat() {
     Geometry geometry;
     for (int axis = 0; axis < 3; ++axis) {
@@ -231,7 +231,7 @@ Geometry needles() {
     return geometry;
 }
 
-/// Of sizes from 2^-12 to 2^47 about one corner: the splits peel off one after the other.
+/// Triangles of sizes from 2^-12 to 2^47 about one corner: each split separates a single triangle.
 Geometry growing() {
     Geometry geometry;
     for (int i = 0; i < 120; ++i) {
@@ -266,7 +266,7 @@ TEST_P(TraversalOf, AllTrianglesAgreesToTheBit) {
     const HardScene& hard = GetParam();
     const TracedScene scene(hard.geometry());
     std::vector<TestRay> rays = randomRays(2000, hard.size, hard.centre);
-    for (std::size_t i = 0; i < rays.size(); i += 5) {  // to a place where there is something
+    for (std::size_t i = 0; i < rays.size(); i += 5) {  // aimed at a triangle
         const glm::uvec3 t = scene.geometry.triangles[i % scene.geometry.triangles.size()];
         const glm::vec3 target =
             (scene.geometry.positions[t.x] + scene.geometry.positions[t.y] + scene.geometry.positions[t.z]) /
@@ -292,7 +292,7 @@ INSTANTIATE_TEST_SUITE_P(
                     HardScene{"Growing", growing, 2.0f}, HardScene{"Single", single, 1.0f}),
     [](const auto& scene) { return scene.param.name; });
 
-/// Lanes leave the traversal and return when others are done: all thresholds give the same hits.
+/// Lanes leave the traversal and resume it when others are done: all thresholds give the same hits.
 TEST(Traversal, LeavingAndResumingChangesNothing) {
     const TracedScene scene(soup(400, 1.0f));
     const std::vector<TestRay> rays = randomRays(3000, 1.0f);

@@ -12,7 +12,7 @@
 #include "tests/shader/traced_scene.h"
 #include "tests/support/device.h"
 
-// Hand-made trees, NaN, and both oracles.
+// Traversal of hand-made trees, NaN, and both oracles.
 
 namespace duolux::test {
 namespace {
@@ -41,7 +41,7 @@ TEST(Traverse, AnEmptyNodeIsAnEmptyScene) {
     }
 }
 
-/// By ballots, and by shuffles where lanes are 8 as on lavapipe: of each subgroup the lanes that say yes.
+/// Counts the lanes of each subgroup that vote yes: by ballots, and by shuffles with 8 lanes.
 TEST(Traverse, LanesAreCounted) {
     const std::uint32_t lanes = device().info().subgroupSize;
     Random random;
@@ -77,7 +77,7 @@ TEST(Traverse, AChainOfTheLargestDepthIsTraversed) {
             node.origin[axis] = -64.0f;
             node.exponent[axis] = 127;
         }
-        const bool chain = i == 0 || (i % 2 == 1 && i + 2 < count);  // nodes 2k + 1 go on, 2k + 2 wait
+        const bool chain = i == 0 || (i % 2 == 1 && i + 2 < count);  // nodes 2k + 1 continue, 2k + 2 wait
         if (chain) {
             node.childBase = i == 0 ? 1 : i + 2;
             setChild(node, 0, innerMeta(0), lower, upper);
@@ -95,7 +95,7 @@ TEST(Traverse, AChainOfTheLargestDepthIsTraversed) {
     EXPECT_EQ(hits[0].nodes, count);
     EXPECT_EQ(hits[1].t, 60.0f - static_cast<float>(count));
     EXPECT_EQ(hits[1].nodes, count);
-    // All of them, each as the first beyond a distance.
+    // Each hit is the first beyond some distance.
     std::vector<TestRay> beyond(count + 1, rays[0]);
     for (std::size_t i = 0; i <= count; ++i)
         beyond[i].tMin = 0.5f + static_cast<float>(i);
@@ -200,7 +200,7 @@ inline TestRay widen(const TestRay& ray) {
 
 namespace {
 
-/// Triangles far from each other in proportion to their size, so that single and double meet the same ones.
+/// Triangles are small relative to their distances, so that single and double precision hit the same ones.
 TEST(TraverseOracles, NearestHits) {
     Random random(21);
     Geometry geometry;

@@ -1,7 +1,7 @@
 // The parts of the traversal that need no tree. traverse_test.cpp tests nodes, traversal_test.cpp whole traversals.
 #include "shaders/lib/traverse.glsl"
 
-// Pairs of triangles as a test puts them here, 8 of them.
+// Eight pairs of triangles, which the tests fill in.
 uvec4 pairTexels[32];
 uvec4 fetchPairTexel(uint index) { return pairTexels[index]; }
 uvec4 fetchNodeTexel(uint index) { return uvec4(0u); }
@@ -15,24 +15,24 @@ void putPair(uint pair, vec3 v0, vec3 v1, vec3 v2, vec3 v3, uint primitive0, uin
     pairTexels[4u * pair + 3u] = uvec4(floatBitsToUint(v3), primitive1);
 }
 
-// A single triangle in the plane z = height, around the z axis, its front below or above.
+// A single triangle in the plane z = height, around the z axis, that faces down or up.
 void putTriangle(uint pair, float height, uint primitive, bool frontBelow) {
     vec3 v1 = frontBelow ? vec3(0.0, 2.0, height) : vec3(1.0, -1.0, height);
     vec3 v2 = frontBelow ? vec3(1.0, -1.0, height) : vec3(0.0, 2.0, height);
     putPair(pair, vec3(-1.0, -1.0, height), v1, v2, v1, primitive, kNoTriangle);
 }
 
-// The front is what a ray along the z axis comes to.
+// A ray along the z axis hits the front.
 void putTriangle(uint pair, float height, uint primitive) { putTriangle(pair, height, primitive, true); }
 
-// Two triangles that both cross the z axis, at these heights: the pair is folded at an edge beside it.
+// Two triangles that both cross the z axis, at these heights: the pair is folded at an edge beside the axis.
 void putFolded(uint pair, float height0, float height1, uint primitive0, uint primitive1) {
     float edge = 0.5 * (height0 + height1);
     putPair(pair, vec3(1.0, 0.0, 2.0 * height0 - edge), vec3(-1.0, -2.0, edge), vec3(-1.0, 2.0, edge),
             vec3(1.0, 0.0, 2.0 * height1 - edge), primitive0, primitive1);
 }
 
-// Along the z axis from the origin, with these pairs of group `base` to test.
+// A ray along the z axis from the origin, with these pairs of group `base` to test.
 Traversal alongZ(float tMin, uint after, float tMax, uint base, uint mask) {
     Traversal r = traversalStart(0u, vec3(0.0), vec3(0.0, 0.0, 1.0), tMin, after, tMax, false);
     r.nodesLeft = false;
@@ -76,7 +76,8 @@ TEST(StartsAtTheRootWithTheRay) {
     EXPECT_EQ(r.tMin, tMin);
     EXPECT_EQ(r.afterOrder, after);
     EXPECT_EQ(r.anyHit, anyHit);
-    // Bits of the octant as those of a slot: set where the ray runs towards the upper side, XOR gives the nearest 7.
+    // Octants and slots have the same bits, set where the ray runs towards the upper side; the nearest slot
+    // XOR the octant is 7.
     EXPECT_EQ(r.octant, (d.x > 0.0 ? 4u : 0u) + (d.y > 0.0 ? 2u : 0u) + (d.z > 0.0 ? 1u : 0u));
     EXPECT_EQ(r.t, tMax);
     EXPECT_EQ(r.triangle, kNoTriangle);
@@ -124,9 +125,9 @@ TEST(PairsAreTestedFromTheLowestBitUp) {
     EXPECT_EQ(r.triangle, 2u * (2u + uint(findLSB(first))));
     EXPECT_EQ(r.order, 102u + uint(findLSB(first)));
     EXPECT_NEAR(r.t, 3.0 + float(findLSB(first)), 1e-6);
-    // The origin is a third from v0 to v1 and v2 each.
+    // All three barycentric coordinates are 1/3.
     EXPECT_NEAR(r.barycentric, vec2(1.0 / 3.0), 1e-6);
-    // What comes after is further away, or the same.
+    // The following pairs are further away, or the same.
     Traversal before = r;
     r.pairMask = mask;
     testPair(r, (randomUint() & 1u) == 0u);
@@ -135,8 +136,8 @@ TEST(PairsAreTestedFromTheLowestBitUp) {
     EXPECT_EQ(r.triangle, before.triangle);
 }
 
-// Distances at both ends are left out; a ray that walks in order leaves out only what comes before or is the last
-// crossing, and takes coincident ones in the order of primitives.
+// Excludes hits at both ends of the interval. An ordered traversal excludes only the last crossing and hits
+// before it, and takes coincident hits in the order of primitives.
 TEST_N(HitsLieBetweenTheDistances, 1) {
     putTriangle(0u, 2.0, 5u);
     Traversal r = alongZ(2.0, 4u, 9.0, 0u, 1u);
@@ -185,7 +186,7 @@ TEST_N(OfCoincidentHitsTheFirstPrimitiveIsMetFirst, 1) {
     testPair(r, true);
     testPair(r, true);
     EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(4u, 4u));
-    // Without order the first that was tested stays.
+    // An unordered traversal keeps the first one tested.
     r = alongZ(0.0, kNoTriangle, 9.0, 0u, 7u);
     testPair(r, false);
     testPair(r, false);
@@ -202,7 +203,7 @@ TEST(ATriangleThatIsNotHitChangesNothing) {
     EXPECT_EQ(vec3(r.t, r.barycentric), vec3(9.0, 0.0, 0.0));
 }
 
-// Either may be the nearer one. The first has its front below, the second above.
+// Either may be the nearer one. The first faces down, the second faces up.
 TEST(BothTrianglesOfAPairAreMet) {
     float heights[2] = {randomFloat(1.0, 4.0), randomFloat(5.0, 9.0)};
     uint near = randomUint() & 1u;
@@ -212,9 +213,9 @@ TEST(BothTrianglesOfAPairAreMet) {
     testPair(r, (randomUint() & 1u) == 0u);
     EXPECT_EQ(uvec3(r.triangle, r.order, r.pairMask), uvec3(2u + near, orders[near], 0u));
     EXPECT_NEAR(r.t, heights[0], 1e-5);
-    // On the axis, half way from the edge to the corner that is not on it: corner 0 and 3 come first.
+    // The axis is half way from the edge to the opposite corner; corners 0 and 3 come first.
     EXPECT_NEAR(r.barycentric, vec2(0.25), 1e-5);
-    // The other one beyond it.
+    // The other triangle is behind it.
     r = alongZ(r.t, r.order, 20.0, 1u, 1u);
     testPair(r, true);
     EXPECT_EQ(uvec2(r.triangle, r.order), uvec2(3u - near, orders[1u - near]));
@@ -224,7 +225,7 @@ TEST(BothTrianglesOfAPairAreMet) {
     EXPECT_EQ(r.triangle, kNoTriangle);
 }
 
-// Its triangles lie on each other: the front of one comes first, whatever their primitives.
+// Its triangles coincide: the one whose front is hit comes first, whatever the primitives.
 TEST_N(APairFoldedShutIsMetFrontFirst, 1) {
     for (uint k = 0u; k < 2u; k++) {
         putFolded(0u, 3.0, 3.0, 5u + k, 6u - k);
@@ -237,7 +238,7 @@ TEST_N(APairFoldedShutIsMetFrontFirst, 1) {
     }
 }
 
-// Six coincident triangles of both windings, met one after the other by a ray and by the reverse ray.
+// Six coincident triangles of both windings, crossed one after another by a ray and by the reverse ray.
 TEST(AReverseRayMeetsCoincidentSurfacesInReverse) {
     uint fronts = randomUint();
     for (uint i = 0u; i < 6u; i++) putTriangle(i, 2.0, (i * 5u + 3u) % 6u, ((fronts >> i) & 1u) != 0u);

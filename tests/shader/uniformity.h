@@ -16,7 +16,7 @@
 
 namespace duolux::test {
 
-/// p-values of tests that err together with probability `alpha` (Sidak).
+/// p-values of tests with the joint error probability `alpha` (Sidak).
 class Family {
   public:
     void add(std::string what, double p) { members_.emplace_back(std::move(what), p); }

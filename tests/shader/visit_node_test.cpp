@@ -65,9 +65,9 @@ shared::WideNode randomNode(Random& random, std::uint32_t index) {
 
 enum class Meets { kNo, kPerhaps, kYes };
 
-/// Whether a ray meets a child's box between tMin and tMax. What rounding may change is left open: 8
-/// roundings of the node's and the ray's coordinates, seen along the ray, and the part of 6e-7 by which the
-/// library lengthens a stay.
+/// Whether a ray meets a child's box between tMin and tMax. kPerhaps if rounding may decide: 8 roundings of
+/// the node's and the ray's coordinates, along the ray, and the relative 6e-7 by which the library extends
+/// the interval.
 Meets meets(const shared::WideNode& node, int slot, const TestRay& ray) {
     double entry = static_cast<double>(ray.tMin), leave = static_cast<double>(ray.tMax);
     double entrySurely = entry, leaveSurely = leave;
@@ -91,7 +91,7 @@ Meets meets(const shared::WideNode& node, int slot, const TestRay& ray) {
     return leave < 0.0 || entry > leave * (1.0 + 1e-6) ? Meets::kNo : Meets::kPerhaps;
 }
 
-/// Rays from around a node, half of them at one of its children, through all octants.
+/// Rays from around a node, half of them aimed at one of its children, through all octants.
 TestRay randomRay(Random& random, const shared::WideNode& node) {
     TestRay ray{random.inBox(2.0f), random.word() % 3 == 0 ? random.uniform(0.0f, 2.0f) : 0.0f,
                 random.direction(), kFar};
@@ -125,8 +125,8 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
         const std::uint32_t slots = 1 + random.word() % 255;
         std::uint32_t left = slots & random.word();
         if (left == 0) left = slots;
-        // The first by visiting order is the one furthest against the ray: the slot whose bits differ most
-        // from those of the octant the ray runs to, the highest bit counting most.
+        // The slot that is visited first has the bits that differ most from those of the ray's octant, the
+        // highest bit counting most.
         const TestRay ray = randomRay(random, tree.nodes[i]);
         std::uint32_t octant = 0, best = 0, bestSlot = 0;
         for (int axis = 0; axis < 3; ++axis)
@@ -186,7 +186,7 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
                 << i << ", slot " << slot;
         }
         ASSERT_EQ(a.pairMask, pairs) << i;
-        if (inner != 0) {  // down; siblings wait
+        if (inner != 0) {  // descends; siblings wait
             ASSERT_EQ(a.groupMask, inner | node.innerMask) << i;
             ASSERT_EQ(a.stackSize, siblings != 0 ? 1u : 0u) << i;
             ASSERT_EQ(a.nodesLeft, 1u) << i;
@@ -194,7 +194,7 @@ TEST(VisitNode, FindsTheChildrenThatARayMeets) {
                 ASSERT_EQ(a.stackBase, visits[i].groupBase);
                 ASSERT_EQ(a.stackMask, rest[i]);
             }
-        } else {  // on with siblings, if any are left
+        } else {  // continues with siblings, if any remain
             ASSERT_FALSE(descended) << i;
             ASSERT_EQ(a.stackSize, 0u) << i;
             ASSERT_EQ(a.nodesLeft, siblings != 0 ? 1u : 0u) << i;

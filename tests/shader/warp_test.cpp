@@ -7,7 +7,7 @@
 #include "tests/shader/inputs.h"
 #include "tests/shader/oracles.h"
 
-// Mappings from the unit square, and frames: densities, closed forms in double, and both oracles.
+// Mappings from the unit square, and frames: densities, closed forms in double precision, and both oracles.
 
 namespace duolux::test {
 namespace {
@@ -19,7 +19,7 @@ const ShaderLibrary& warp() {
 
 constexpr double kPi = glm::pi<double>();
 
-/// The corners and edges of the square that numbers in [0, 1) reach, and its diagonal.
+/// A grid, and the corners, edges and diagonal of the square of numbers in [0, 1).
 std::vector<glm::vec2> squareWithEdges() {
     std::vector<glm::vec2> us = unitSquare(64);
     constexpr float kLast = 1.0f - 0x1p-24f;
@@ -30,7 +30,7 @@ std::vector<glm::vec2> squareWithEdges() {
     return us;
 }
 
-/// Over (z, phi), in which solid angle is an area: pdf cos / pi. Level 1e-4.
+/// Over (z, phi), where area is solid angle: density cos / pi. Level 1e-4.
 TEST(Warp, CosineHemisphereHasItsDensity) {
     std::vector<glm::dvec2> points;
     for (const glm::vec3 w : warp().call<glm::vec3>("cosineHemisphere", randomSquare(1 << 17)))
@@ -40,7 +40,7 @@ TEST(Warp, CosineHemisphereHasItsDensity) {
         1e-4);
 }
 
-/// Over s = x + y and t = x / s, whose area element is that of (x, y) divided by s: pdf 2 per unit of
+/// Over s = x + y and t = x / s, whose area element is that of (x, y) divided by s: density 2 per unit of
 /// barycentric area. Level 1e-4.
 TEST(Warp, UniformTriangleIsUniform) {
     std::vector<glm::dvec2> points;
@@ -52,8 +52,7 @@ TEST(Warp, UniformTriangleIsUniform) {
         "uniform-triangle", points, {{0.0, 0.0}, {1.0, 1.0}}, [](double s, double) { return 2.0 * s; }, 1e-4);
 }
 
-/// The map covers the triangle without gaps: of a fine grid's points, one at least in each cell of a coarse
-/// one.
+/// The map covers the triangle without gaps: each cell of a coarse grid receives a point of a fine grid.
 TEST(Warp, UniformTriangleCoversTheTriangle) {
     constexpr int kCells = 64;
     std::vector<bool> seen(kCells * kCells);
@@ -82,8 +81,8 @@ TEST(Warp, CosineHemisphereMatchesItsFormula) {
     }
 }
 
-/// Heitz's pseudocode ("A Low-Distortion Map Between Triangle and Square", 2019) in double; halves and one
-/// difference: a float has them right to a rounding.
+/// Heitz's pseudocode ("A Low-Distortion Map Between Triangle and Square", 2019) in double precision. It only
+/// halves and subtracts once, so floats are correct to one rounding.
 TEST(Warp, UniformTriangleMatchesItsFormula) {
     const std::vector<glm::vec2> us = squareWithEdges();
     const std::vector<glm::vec2> bs = warp().call<glm::vec2>("uniformTriangle", us);
@@ -126,8 +125,8 @@ std::vector<Basis<glm::vec3>> bases(const std::vector<glm::vec3>& normals) {
                                              normals);
 }
 
-/// All over the sphere; near each axis, with components down to those that are not normal numbers; at the
-/// seam n.z = 0 and -0.
+/// Over the whole sphere; near each axis, with components down to denormal numbers; on the seam n.z = 0 and
+/// -0.
 std::vector<glm::vec3> normals() {
     std::vector<glm::vec3> ns = randomDirections(1 << 14);
     const std::vector<float> tiny = randomScales(3 * 1024, -149.0, -1.0);
@@ -150,10 +149,10 @@ std::vector<glm::vec3> normals() {
     return ns;
 }
 
-/// The frame is that of space turned from z to n the short way, R e = e - (e . n) (n + z) / (1 + n . z) for e
-/// = x, y; below the seam the one for -n, with the second vector turned around (Frisvad, "Building an
+/// The frame is space rotated from z to n by the smaller angle, R e = e - (e . n) (n + z) / (1 + n . z) for e
+/// = x, y; below the seam, it is the frame for -n with the second vector negated (Frisvad, "Building an
 /// Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012, with the change by Duff et al.,
-/// 2017). Beyond what the rounding of n itself does the error is that of a few operations on numbers up to 1.
+/// 2017). Apart from the rounding of n, the error is that of a few operations on numbers up to 1.
 TEST(Warp, BasisIsSpaceTurnedTheShortWay) {
     const std::vector<glm::vec3> ns = normals();
     const std::vector<Basis<glm::vec3>> frames = bases(ns);

@@ -1,4 +1,4 @@
-// Mappings from the unit square, and frames. Sines and cosines may be off by 2^-21, as GPUs have them.
+// Mappings from the unit square, and frames. Sines and cosines may have errors of 2^-21, as on GPUs.
 #include "shaders/lib/warp.glsl"
 #include "tests/shader/frame_inputs.glsl"
 
@@ -18,7 +18,7 @@ TEST(CosineHemisphereProjectsToTheDisk) {
     EXPECT_NEAR((off - round(off)) * length(w.xy), 0.0, 2e-6);
 }
 
-// Axes at quarters of a turn; the last value below 1 still leaves the plane.
+// Axes at quarter turns; the largest value below 1 is still above the plane.
 TEST_N(CosineHemisphereKnownAnswers, 1) {
     float last = 1.0 - 1.0 / 16777216.0;
     EXPECT_EQ(cosineHemisphere(vec2(0.0, 0.3)), vec3(0.0, 0.0, 1.0));
@@ -37,7 +37,7 @@ TEST(UniformTriangleIsInTheTriangle) {
     EXPECT_LE(b.x + b.y, 1.0);
 }
 
-// The square's corners go to those of the triangle, and the one at (1, 1) to the middle of the long edge.
+// The square's corners map to those of the triangle, and (1, 1) to the middle of the long edge.
 TEST_N(UniformTriangleKnownAnswers, 1) {
     EXPECT_EQ(uniformTriangle(vec2(0.0, 0.0)), vec2(0.0, 0.0));
     EXPECT_EQ(uniformTriangle(vec2(1.0, 0.0)), vec2(1.0, 0.0));
@@ -48,9 +48,9 @@ TEST_N(UniformTriangleKnownAnswers, 1) {
     EXPECT_EQ(uniformTriangle(vec2(0.25, 0.75)), vec2(0.125, 0.625));
 }
 
-// A small square on either side of the diagonal keeps its orientation, its area (half of it: so much is the triangle of
-// the square), and hardly its shape: no edge is stretched by more than sqrt(5)/2. Multiples of 2^-12, so that all is
-// exact.
+// A small square on either side of the diagonal keeps its orientation, half its area (the triangle has half
+// the area of the square) and nearly its shape: no edge is stretched by more than sqrt(5)/2. Multiples of
+// 2^-12 make everything exact.
 TEST(UniformTrianglePreservesAreas) {
     const float h = 1.0 / 4096.0;
     vec2 u = floor(randomVec2() * 4095.0) * h;

@@ -1,5 +1,5 @@
-// Closed meshes of 8 and 20 triangles, every ray against every triangle: nothing passes between triangles. The
-// principle is exact: the corners are projected once, to the same place for all triangles, and a difference of two
+// Closed meshes of 8 and 20 triangles, every ray against every triangle: no ray passes between triangles. The
+// principle is exact: each corner is projected to the same place for all triangles, and a difference of two
 // rounded products has the sign of the exact one, or is 0, which counts as inside.
 #include "shaders/lib/intersect.glsl"
 
@@ -22,7 +22,7 @@ uvec3 face(uint i) {
     return faceCount == 20u ? kFaces[i] : uvec3(i & 1u, 2u + ((i >> 1u) & 1u), 4u + (i >> 2u));
 }
 
-// Of a random shape, squeezed along a random direction to a hundredth at most.
+// A mesh of random shape, squeezed along a random direction to a hundredth at most.
 void makeMesh(bool icosahedron, float scale, vec3 offset) {
     faceCount = icosahedron ? 20u : 8u;
     vec3 along = randomDirection();
@@ -55,7 +55,7 @@ Crossings crossingsOf(vec3 origin, vec3 direction, bool once) {
     return found;
 }
 
-// A corner, a point of an edge, or one close to an edge.
+// A corner, a point on an edge, or a point close to an edge.
 vec3 target() {
     uvec3 f = face(randomUint() % faceCount);
     uint kind = randomUint() % 4u;
@@ -100,7 +100,7 @@ TEST(NothingLeaksWhereEdgeFunctionsVanish) {
     EXPECT_LT(crossingsOf(vec3(0.0), d, true).nearest, 1e30);
     d[(axis + 1u) % 3u] = randomFloat(-2.0, 2.0);
     EXPECT_LT(crossingsOf(vec3(0.0), normalize(d), true).nearest, 1e30);
-    // From outside, straight at a corner and along an edge.
+    // From outside, straight at a corner, and along an edge.
     EXPECT_LT(crossingsOf(vec3(-3.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0), true).nearest, 1e30);
     EXPECT_LT(crossingsOf(vec3(-0.25, -3.0, 0.0), vec3(0.0, 1.0, 0.0), true).nearest, 1e30);
 }
@@ -137,11 +137,11 @@ TEST(WhereEdgeFunctionsVanishASurfaceIsMetOnce) {
     d[axis] = (randomUint() & 1u) == 0u ? 1.0 : -1.0;
     d[(axis + 1u) % 3u] = testIndex() % 2u == 0u ? 0.0 : float(int(randomUint() % 9u) - 4);
     Crossings found = crossingsOf(vec3(0.0), normalize(d), true);
-    // Behind the ray's origin, too: a line crosses the closed surface twice.
+    // Includes crossings behind the ray's origin: a line crosses the closed surface twice.
     EXPECT_EQ(found.front + found.back, 2u);
 }
 
-// A sheet of triangles of side 1, seen from as far as a million of them: each ray crosses it once.
+// A sheet of triangles with sides of 1, seen from up to a million sides away: each ray crosses it once.
 const uint kSheet = 6u;
 
 TEST_N(ASheetIsCrossedOnceFromAnyDistance, 8192) {
@@ -153,7 +153,7 @@ TEST_N(ASheetIsCrossedOnceFromAnyDistance, 8192) {
         vec3 towards = randomDirection();
         towards = dot(towards, normal) < 0.0 ? -towards : towards;
         vec3 origin = normalize(towards + normal) * randomScale(1.0, 20.0);
-        // A corner, a point of an edge, or any.
+        // A corner, a point on an edge, or any point.
         uint kind = randomUint() % 4u;
         vec2 cell = vec2(float(int(randomUint() % 3u) - 1), float(int(randomUint() % 3u) - 1));
         float s = randomFloat();

@@ -1,5 +1,6 @@
-# duolux_discover_glsl_tests(TARGET FOLDER [gtest_discover_tests' further arguments]): the tests of a shader_test in CTest.
-# They are asked for when CTest runs, and again when a test file of FOLDER has changed since: nothing is rebuilt for these.
+# duolux_discover_glsl_tests(TARGET FOLDER [further arguments of gtest_discover_tests]): adds the tests of a
+# shader_test to CTest. CTest asks the program for its tests when it runs, and again if a test file of FOLDER
+# has changed; nothing is rebuilt for this.
 include(GoogleTest)
 function(duolux_discover_glsl_tests target folder)
   set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_fresh.cmake)

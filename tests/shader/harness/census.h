@@ -78,7 +78,7 @@ class Census {
     std::source_location where_;
     std::size_t compared_ = 0, off_ = 0, invocationsOff_ = 0, lastOff_ = static_cast<std::size_t>(-1);
     Case first_, worst_;
-    std::map<int, std::size_t> octaves_;  // of how many times what is allowed, or 1, they are off
+    std::map<int, std::size_t> octaves_;  // binary exponents of the differences, relative to `allowed` or 1
 };
 
 }  // namespace duolux::test

@@ -16,8 +16,9 @@ layout(push_constant, scalar) uniform DispatchBlock { TestDispatch testDispatch;
 #define TEST(name) void test_##name()
 #define TEST_N(name, count) void test_##name()
 
-// Arguments: float, vec2 to vec4, and where they are compared for order uint to uvec4, too; EXPECT_EQ and EXPECT_NE
-// also take bool, int and their vectors. Both must have as many components, and every one counts.
+// Arguments are float and vec2 to vec4; comparisons of order also take uint to uvec4; EXPECT_EQ and EXPECT_NE
+// also take bool, int and their vectors. Both must have the same number of components, and every component
+// counts.
 #define EXPECT_TRUE(condition) expectEqual_(__LINE__, value_(condition), value_(true))
 #define EXPECT_FALSE(condition) expectEqual_(__LINE__, value_(condition), value_(false))
 #define EXPECT_EQ(actual, expected) expectEqual_(__LINE__, value_(actual), value_(expected))
@@ -29,13 +30,13 @@ layout(push_constant, scalar) uniform DispatchBlock { TestDispatch testDispatch;
 #define EXPECT_GT(actual, bound) expectAbove_(__LINE__, value_(actual), value_(bound), true)
 #define EXPECT_GE(actual, bound) expectAbove_(__LINE__, value_(actual), value_(bound), false)
 
-// Shows a value, as long as something fails, of the first invocation in which it does: what an expectation was made of.
+// If anything fails, shows a value of the first failing invocation, for example an input of an expectation.
 #define NOTE(shown) note_(__LINE__, value_(shown))
 
 uint testIndex() { return testDispatch.firstInvocation + gl_GlobalInvocationID.x; }
 uint testCount() { return testDispatch.count; }
 
-// A value of any type that expectations take.
+// Values of the types that expectations take.
 struct BoolValue_ { uvec4 v; uint components; };
 struct IntValue_ { ivec4 v; uint components; };
 struct UintValue_ { uvec4 v; uint components; };
@@ -75,7 +76,7 @@ void note_(int line, FloatValue_ a) { note_(line, floatBitsToUint(a.v), kValueFl
 // Tests the bits, because the result of comparisons with NaN depends on the driver.
 bool isNotANumber_(float a) { return (floatBitsToUint(a) & 0x7fffffffu) > 0x7f800000u; }
 
-// The difference is not negative, or not a number.
+// The difference must be non-negative or NaN.
 void expectation_(int line, bool ok, Evidence seen) {
     line = line < expectations.length() ? line : 0;
     ok = ok && seen.components == seen.expectedComponents;
@@ -95,7 +96,7 @@ void expectation_(int line, bool ok, Evidence seen) {
             atomicOr(failedInvocations[invocation >> 5u], 1u << (invocation & 31u));
         }
     } else if (!ok && testDispatch.pass == kPassFirst) {
-        // In a loop, the first time.
+        // In a loop, only the first failure.
         bool first = ~invocation == expectations[line].first && expectations[line].firstSeen.components == 0u;
         if (first) expectations[line].firstSeen = seen;
         if (bits == expectations[line].worst) atomicMax(expectations[line].worstAt, ~invocation);
@@ -106,13 +107,13 @@ void expectation_(int line, bool ok, Evidence seen) {
 
 float largest_(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 
-// Differences: of equal values 0, also of infinities; not a number if a component of either is not.
+// Differences are 0 for equal values, including infinities, and NaN if either value is NaN.
 float difference_(float a, float b) {
     if (isNotANumber_(a) || isNotANumber_(b)) return uintBitsToFloat(0x7fc00000u);
     return a == b ? 0.0 : abs(a - b);
 }
 
-// In units of the last place: how many floats further.
+// In units in the last place: the number of floats between the values.
 float ulps_(float a, float b) {
     if (isNotANumber_(a) || isNotANumber_(b)) return uintBitsToFloat(0x7fc00000u);
     uint x = floatBitsToUint(a);
@@ -123,7 +124,7 @@ float ulps_(float a, float b) {
     return float(sameSign ? max(magnitudeX, magnitudeY) - min(magnitudeX, magnitudeY) : magnitudeX + magnitudeY);
 }
 
-// Of the components the largest; one that is not a number outweighs all.
+// The largest component; NaN if any component is NaN.
 float largestOf_(vec4 d) {
     bool nan = isNotANumber_(d.x) || isNotANumber_(d.y) || isNotANumber_(d.z) || isNotANumber_(d.w);
     return nan ? uintBitsToFloat(0x7fc00000u) : largest_(d);
@@ -177,7 +178,8 @@ void expectDifferent_(int line, FloatValue_ a, FloatValue_ b) {
     expectation_(line, isNotANumber_(off) || off != 0.0, floatEvidence_(a, b, off, 0.0));
 }
 
-// Every component of `a` is below that of `b` (or equal, unless strict); the difference is how far it is beyond.
+// Expects every component of `lower` below that of `upper` (or equal, unless strict). The difference is the
+// excess.
 void expectOrder_(int line, FloatValue_ lower, FloatValue_ upper, bool strict, Evidence seen) {
     bool ok = true;
     vec4 off = vec4(0.0);

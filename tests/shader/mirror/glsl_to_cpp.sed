@@ -1,13 +1,13 @@
-# Turns a file of the shader library into C++ (sed -E): what the two languages write in different ways, line by line. The
-# result is included into a namespace that has vocabulary.inc, with `real` for float. See mirror.h.
+# Turns a file of the shader library into C++ (sed -E), line by line, where the languages differ. The result
+# is included in a namespace that has vocabulary.inc, with `real` for float. See mirror.h.
 
 s@ *//.*@@
-# Each file once, in an order that mirror.h knows; what is for C++ alone is left out.
+# library.inc includes each file once, in order; code for C++ alone is left out.
 /^#ifdef __cplusplus/,/^#endif/d
 /^#(include|extension|ifndef|define|endif)\b/d
 /^DUOLUX_(BEGIN|END)$/d
 
-# Numbers and scalars: all arithmetic is that of `real`.
+# Numbers and scalars: all arithmetic uses `real`.
 s/\b(([0-9]+\.[0-9]*|[0-9]*\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+)f?\b/real(\1)/g
 s/\bfloat\b/real/g
 s/\bprecise //g
@@ -23,6 +23,6 @@ s/^layout\(constant_id = [A-Za-z0-9]+\) const (.*)/inline \1/
 s/^DUOLUX_CONST/inline constexpr/
 s/^const /inline const /
 
-# Functions and globals may be seen by many files.
+# Several files may include functions and globals.
 s/^(\w+(<[0-9]+>)? \w+\()/inline \1/
 s/^(uint \w+\[)/inline \1/
