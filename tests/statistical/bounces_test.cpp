@@ -6,8 +6,8 @@
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
 
-// The statistics of the last bounces, by which the renderer warns of a limit that cuts light off. Renders
-// that differ only in the limit have identical paths up to it, so that their means differ by one bounce.
+// The statistics of the last bounces, with which the renderer warns of a limit that cuts light off. Renders
+// that differ only in the limit have identical paths up to it, so their means differ by one bounce.
 
 namespace duolux::test {
 

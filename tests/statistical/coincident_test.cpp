@@ -42,7 +42,7 @@ class Coincident : public testing::Test {
         scene.settings.width = scene.settings.height = 8;
         scene.settings.bounces = 0;
     }
-    /// About the z axis; the front is above unless it is turned.
+    /// A square about the z axis that faces up, or down if `turned`.
     void pane(float halfWidth, float z, const Material& material, bool turned = false) {
         const float a = halfWidth;
         const std::uint32_t index = builder_.add(material);
@@ -55,9 +55,9 @@ class Coincident : public testing::Test {
     SceneBuilder builder_;
 };
 
-// Two filters whose matrices do not commute, of all windings, one a decal on the other or not: the order is
-// that of a small gap, in which the one that faces the camera, or the first of two that face alike, is in
-// front.
+// Two filters with matrices that do not commute, of all windings and with or without one being a decal on the
+// other. The order is that across a small gap: the one that faces the camera is in front; of two that face
+// alike, the first if they face the camera, else the second.
 TEST_F(Coincident, FiltersAreMetInOneOrderByBothIntegrators) {
     const LightMatrix first{glm::vec3(0.5f), glm::vec3(0.0f), glm::vec3(0.8f), glm::vec3(0.1f)};
     const LightMatrix second{glm::vec3(0.2f), glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.9f)};
@@ -114,7 +114,7 @@ class Lamp : public Coincident {
         material.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
         return material;
     }
-    /// Compares both integrators with the same scene with separated surfaces.
+    /// Compares both integrators with a scene that has separated surfaces.
     void expectAs(const LoadedScene& apart) {
         const LoadedScene together = builder_.scene;
         for (const bool up : {false, true}) {
@@ -153,7 +153,7 @@ TEST_F(Lamp, InThePlaneOfACeilingShines) {
     const LoadedScene apart = builder_.scene;
     for (const bool lampFirst : {false, true}) {
         for (const bool ceilingDown : {false, true}) {
-            // From below the ceiling is in front of a lamp only if it faces that way, and the lamp does not.
+            // From below, the ceiling is in front of the lamp only if it faces down and the lamp does not.
             builder_ = floor;
             if (lampFirst) plate(0.5f, 1.0f, lamp(), true);
             plate(2.0f, 1.0f, ceiling, ceilingDown);
@@ -164,7 +164,7 @@ TEST_F(Lamp, InThePlaneOfACeilingShines) {
     builder_ = floor;
 }
 
-// A transmitting surface before a scattering one: the vertex is on the second.
+// A transmitting surface before a scattering one: the scattering vertex is on the second.
 TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
     builder_.scene.reflectance = preset("one-bounce");
     const SceneBuilder floor = builder_;
@@ -175,7 +175,7 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
         plate(1.0f, 1.0f, lamp(), true);
         return builder_.scene;
     };
-    // The film faces up like the floor, and comes after it in the scene: it is behind the floor unless it is
+    // The film faces up like the floor and follows it in the scene, so it is behind the floor unless it is
     // above.
     const LoadedScene above = withFilm(0.001f);
     const double expected = meanBy(above, Integrator::kPath, 512);
@@ -196,7 +196,7 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
     }
     EXPECT_NEAR(meanBy(together, Integrator::kPath, 512), expected, 0.01 * expected);
     EXPECT_NEAR(meanBy(together, Integrator::kLight, 2048), expected, 0.05 * expected);
-    // Twice through the film.
+    // The light crosses the film twice.
     const double bare = [&] {
         builder_ = floor;
         plate(1.0f, 1.0f, lamp(), true);
@@ -206,7 +206,7 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
     builder_ = floor;
 }
 
-/// A plate a little above a ground of any size, and its shadow.
+/// A plate slightly above a ground of any size, and its shadow.
 LoadedScene groundScene(float reach, bool tilted) {
     SceneBuilder builder;
     Material white, lamp = absorbing();
@@ -243,7 +243,7 @@ TEST(LargeTriangles, AGroundOfAnySizeHasTheSamePicture) {
     }
 }
 
-// Every layout and kernel has the same bits, with planes, too.
+// All layouts and kernels give the same bits, with planes, too.
 TEST(LargeTriangles, AllLayoutsHaveTheSameBits) {
     const LoadedScene scene = groundScene(1e5f, true);
     std::optional<Film> first;

@@ -6,9 +6,9 @@
 #include "tests/statistical/renders.h"
 #include "tests/support/scene_builder.h"
 
-// Whole pictures against the reference, pixel by pixel: what no closed form covers. Occlusion by crossings in
-// a scene of many depths, visibility of the luminaire's front and back, colour bleeding, the interplay of
-// per-material reflectances, and every estimator where it is noisy.
+// Compares whole images with the reference, pixel by pixel, for what no closed form covers: occlusion by
+// crossings in a scene of many depths, visibility of the luminaire's front and back, colour bleeding, the
+// interplay of per-material reflectances, and every estimator where it is noisy.
 
 namespace duolux::test {
 
@@ -26,7 +26,7 @@ LoadedScene boxOf(const Reflectance& reflectance) {
     return scene;
 }
 
-/// The box in which the scene's reflectance would let light through everything, but one block does not.
+/// The scene's reflectance lets light through everything, except one block.
 LoadedScene oneShadow() {
     LoadedScene scene = boxOf(preset("local"));
     scene.materials[kShort].reflectance = preset("global");
@@ -39,7 +39,7 @@ LoadedScene lamps(const char* name) {
     return scene;
 }
 
-/// Not square, tilted, off the axis, with a wider angle; and a point inside the square of reflectances.
+/// Not square, tilted, off-axis, with a wider angle; and a point inside the square of reflectances.
 LoadedScene tiltedView() {
     LoadedScene scene = boxOf(blendReflectance(0.6f, 0.4f));
     scene.camera = {{350, 350, -400}, {250, 200, 200}, {0.4f, 1, 0.1f}, 55.0f};
@@ -48,7 +48,7 @@ LoadedScene tiltedView() {
     return scene;
 }
 
-/// By parallel rays, from above and beside, which meet the box from the outside, too.
+/// Parallel rays from above and from the side, which also hit the box from outside.
 LoadedScene orthographicView() {
     LoadedScene scene = boxOf(preset("global"));
     scene.camera = {{400, 500, -300}, {250, 250, 250}, {0.2f, 1, 0}};
@@ -59,7 +59,7 @@ LoadedScene orthographicView() {
     return scene;
 }
 
-/// Visible light passes too, turned from invisible: every surface is seen through, and scatters.
+/// Visible light, converted from invisible light, also passes: every surface is seen through, and scatters.
 LoadedScene seeThrough() {
     return boxOf({matrix(0.5f, 0, 0.75f, 0), matrix(1, 0, 0.5f, 0)});
 }

@@ -48,7 +48,7 @@ TEST(Determinism, SeedsAndSamplersDiffer) {
     }
 }
 
-/// Samples and pixels of a dispatch, samples of a lane; 0: the renderer's choice.
+/// Samples and pixels of a dispatch, samples of a lane; 0: chosen by the renderer.
 struct Limits {
     std::uint32_t samples, pixels, lane;
 };
@@ -66,7 +66,7 @@ TEST_P(Split, AnySplitGivesTheSameBits) {
     EXPECT_TRUE(sameBits(wholeByLight, filmOf(byLight(scene()), control)));
 }
 
-// The picture has 247 pixels of 22 samples.
+// The image has 247 pixels with 22 samples each.
 INSTANTIATE_TEST_SUITE_P(All, Split,
                          testing::Values(Limits{1, 0, 0}, Limits{2, 0, 0}, Limits{3, 0, 0}, Limits{7, 0, 0},
                                          Limits{15, 0, 0}, Limits{0, 7, 0}, Limits{0, 64, 0},
@@ -176,7 +176,7 @@ LoadedScene thickStack() {
     return result;
 }
 
-/// Aimed at 0.1 s. One may take long on a busy machine, but not all of them.
+/// Dispatches aim at 0.1 s. One may take long on a busy machine, but not all of them.
 void expectShortDispatches(const RenderStatistics& statistics) {
     EXPECT_LT(statistics.deviceSeconds / static_cast<double>(statistics.dispatches), 0.5);
 }

@@ -24,7 +24,7 @@ TEST_P(Exact, MatchesClosedForm) {
     }
 }
 
-/// Mean over the pixels of the variance between seeds, of all channels of the visible component.
+/// Variance between seeds over all channels of the visible component, averaged over pixels.
 double varianceBetween(const Renders& renders) {
     double total = 0.0;
     const std::size_t pixels = renders.images.front().visible.size();
@@ -44,7 +44,7 @@ double varianceBetween(const Renders& renders) {
 }
 
 TEST(ClosedForm, LocalHasNoNoiseWithinASurface) {
-    // A camera that sees so little that every sample meets about the same point.
+    // The camera sees so little that every sample hits nearly the same point.
     LoadedScene scene = cornellBox();
     scene.reflectance = *presetReflectance("local");
     scene.camera.vfov = 1e-3f;

@@ -10,7 +10,7 @@
 namespace duolux::test {
 namespace {
 
-/// Panels before the camera that show their emission, and one out of sight.
+/// Panels in front of the camera that show their emission, and one out of sight.
 class FilmRange : public testing::TestWithParam<Integrator> {
   protected:
     FilmRange() {
@@ -47,7 +47,7 @@ class FilmRange : public testing::TestWithParam<Integrator> {
     SceneBuilder builder_;
 };
 
-// A lamp 10^17 times as bright, which the camera does not see. (Hardly any light path begins at the panel.)
+// A lamp 10^17 times as bright, which the camera does not see. (Hardly any light path starts at the panel.)
 TEST_P(FilmRange, DimLightIsKeptBesideBrightEmittersOutOfSight) {
     builder_.scene.settings.integrator = Integrator::kPath;
     panel(-2.0f, 2.0f, 1e-5f);
@@ -64,8 +64,8 @@ TEST_P(FilmRange, BrightAndDimInOnePicture) {
     const RenderOutput output = render(device(), builder_.scene);
     EXPECT_NEAR(meanOf(output, 5, 8) / 1e4, 1.0, tolerance());
     if (GetParam() == Integrator::kPath) {
-        // A quantum is a 2^-30th of about 5000: 0.047 of the dim value. 6144 samples of that, 5 standard
-        // errors.
+        // A quantum is 2^-30 of about 5000: 0.047 of the dim value. The limit is 5 standard errors of 6144
+        // samples.
         EXPECT_NEAR(meanOf(output, 0, 3) / 1e-4, 1.0, 0.02);
     }
     EXPECT_FALSE(output.statistics.filmOverflowed);
@@ -74,7 +74,7 @@ TEST_P(FilmRange, BrightAndDimInOnePicture) {
 INSTANTIATE_TEST_SUITE_P(Integrators, FilmRange, testing::Values(Integrator::kPath, Integrator::kLight),
                          [](const auto& tested) { return std::string(nameOf(tested.param)); });
 
-// An emitter of a pixel that the first look misses, and 10^14 times as bright as the rest.
+// An emitter in a pixel that the first look misses, 10^14 times as bright as the rest.
 TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
     SceneBuilder builder;
     LoadedScene& scene = builder.scene;
@@ -87,7 +87,7 @@ TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
     wall.emission.visible = glm::vec3(1.0f);
     spot.emission.visible = glm::vec3(1e14f);
     builder.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, builder.add(wall));
-    // The look takes pixels 4 k + 2; this is pixel (128, 127).
+    // The first look takes pixels 4 k + 2; this is pixel (128, 127).
     const float pixel = 2.0f * 4.0f * std::tan(glm::radians(20.0f)) / 256.0f, z = 1e-3f;
     builder.quad({0.1f * pixel, 0.1f * pixel, z}, {0.9f * pixel, 0.1f * pixel, z},
                  {0.9f * pixel, 0.9f * pixel, z}, {0.1f * pixel, 0.9f * pixel, z}, builder.add(spot));
@@ -100,7 +100,7 @@ TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
     EXPECT_GT(image.visible[127 * 256 + 128].x, 0.3f * largest);
     EXPECT_LE(image.visible[127 * 256 + 128].x, largest);
     EXPECT_EQ(image.visible[0].x, 1.0f);
-    // The film holds part of its radiance, although the first look missed it.
+    // The film holds less bright emitters, although the first look misses them.
     for (Material& material : scene.materials)
         material.emission.visible = glm::min(material.emission.visible, glm::vec3(5e10f));
     EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);

@@ -14,8 +14,8 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/tunings.h"
 
-// The layer `normal`: the normal of the first surface along camera rays, on the side of the camera, against
-// closed forms and against a ray caster in double precision.
+// The layer `normal`: the normal of the first surface along camera rays, on the side of the camera, compared
+// with closed forms and with a ray caster in double precision.
 
 namespace duolux::test {
 
@@ -40,8 +40,8 @@ LoadedScene withNormals(LoadedScene scene, std::uint32_t width, std::uint32_t he
     return scene;
 }
 
-/// Means over pixels of what `normalAt` gives for the first surface, by a grid of rays; and whether the pixel
-/// and a margin around it show only one normal.
+/// Means over pixels of `normalAt` for the first surface, by a grid of rays; and whether the pixel and a
+/// margin around it show only one normal.
 struct Expected {
     std::vector<Vec3> means;
     std::vector<bool> uniform;
@@ -101,7 +101,7 @@ Vec3 flatNormal(const Vec3&, const Vec3& normal) {
     return normal;
 }
 
-// A roof seen from above, one side of which shows its back; nothing around it.
+// A roof seen from above, with one side that shows its back, and nothing around it.
 TEST(NormalLayer, OfPlanesIsExactOnBothSides) {
     SceneBuilder builder;
     LoadedScene& scene = builder.scene;
@@ -131,7 +131,7 @@ TEST(NormalLayer, OfFlatTrianglesIsThatOfTheReference) {
     expectNormals(scene, expectedNormals(scene, flatNormal), 250);
 }
 
-// Corners on a sphere, with the normals of the sphere: interpolated, they point away from its centre.
+// Corners on a sphere, with the sphere's normals: interpolated, they point away from its centre.
 TEST(NormalLayer, OfSmoothTrianglesIsInterpolated) {
     const glm::vec3 centre(0.5f, -1.0f, 2.0f);
     for (const Facing facing : {Facing::kOutward, Facing::kInward}) {
@@ -159,7 +159,7 @@ TEST(NormalLayer, OfSmoothTrianglesIsInterpolated) {
     }
 }
 
-// The first surface, whatever passes through it.
+// The first surface counts, whatever passes through it.
 TEST(NormalLayer, DependsOnNothingButGeometry) {
     const LoadedScene first = withNormals(cornellBox(), 17, 11, 9);
     const Film film = render(device(), first).film;
@@ -185,7 +185,7 @@ TEST(NormalLayer, DependsOnNothingButGeometry) {
         material.emission = {};
     expectSame(dark);
     for (const TuningChoice& tuning : allTunings(device().info())) {
-        if (tuning.layout == Layout::kRayQuery) continue;  // the driver intersects with other roundings
+        if (tuning.layout == Layout::kRayQuery) continue;  // the driver rounds intersections differently
         SCOPED_TRACE(nameOf(tuning));
         RenderControl control;
         control.tuning = tuning;
@@ -206,8 +206,8 @@ TEST(NormalLayer, LeavesRadianceAsItIs) {
     EXPECT_TRUE(sameBits(radiance, without));
 }
 
-// By parts of all kinds: dispatches, states to resume from, ranges of samples, dispatches that the driver
-// ends early.
+// Parts of all kinds: dispatches, states to resume from, ranges of samples, dispatches that the driver ends
+// early.
 TEST(NormalLayer, IsTheSameBitsHoweverTheWorkIsSplit) {
     const LoadedScene scene = withNormals(mixedCornellBox(), 19, 13, 21);
     const Film whole = render(device(), scene).film;

@@ -45,7 +45,7 @@ std::vector<LayoutCase> layoutCases() {
         if (!mixed) scene.reflectance = *presetReflectance(preset);
         add(preset == std::string("one-bounce") ? "oneBounce" : preset, scene);
     }
-    // Much light is found by rays that look for emitters alone, in a tree of these.
+    // Rays that only search for emitters, in a tree of these, find much of the light.
     LoadedScene glowing = cornellBox();
     glowing.reflectance = *presetReflectance("shadowless");
     for (const CornellMaterial material : {kRed, kGreen, kShort, kTall})
@@ -76,8 +76,8 @@ TEST_P(Layouts, OfOurOwnTreeGiveTheSameBits) {
     }
 }
 
-/// Rounding of distances and barycentric coordinates changes a path only slightly. Paths differ only where a
-/// ray passes an edge on the other side, and then no more than two samples do: the means are equal.
+/// Rounding of distances and barycentric coordinates changes a path only slightly. Paths differ only if a ray
+/// passes an edge on the other side, and then by at most two samples: the means are equal.
 TEST_P(Layouts, OfTheDriversTreeGiveTheSamePicture) {
     if (!device().info().rayQueries) {
         EXPECT_THROW(render(device(), GetParam().scene, controlOf(kByRayQuery)), UsageError);
@@ -102,7 +102,7 @@ TEST_P(Layouts, OfTheDriversTreeGiveTheSamePicture) {
 INSTANTIATE_TEST_SUITE_P(All, Layouts, testing::ValuesIn(layoutCases()),
                          [](const auto& test) { return test.param.name; });
 
-/// Products of T in the order met, coincident surfaces among them, and emitters behind.
+/// Products of T in the order of crossings, including coincident surfaces, with emitters behind.
 TEST(RayQuery, MatchesClosedFormsOfCrossings) {
     std::vector<ExactCase> cases = crossingCases();
     for (const auto& more : {blockerCases(), lambertCases()})

@@ -56,7 +56,7 @@ void PrintTo(const PairCase& pair, std::ostream* out) {
     *out << pair.name;
 }
 
-/// Full matrices that do not commute and differ per channel.
+/// Full matrices that do not commute and differ between channels.
 Reflectance fullReflectance() {
     return {{{0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}},
             {{0.3f, 0.6f, 0.1f}, {0.2f, 0.1f, 0.5f}, {0.4f, 0.2f, 0.3f}, {0.1f, 0.5f, 0.7f}}};
@@ -77,7 +77,7 @@ LoadedScene twoSpheres(const Reflectance& reflectance) {
     return scene;
 }
 
-/// A coarse sphere with smooth normals, far from those of its faces, above a floor.
+/// A coarse sphere above a floor, with smooth normals that differ much from those of its faces.
 LoadedScene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kBoth) {
     SceneBuilder builder;
     Material grey;
@@ -105,8 +105,8 @@ LoadedScene smoothSphere(const Reflectance& reflectance, Sides sides = Sides::kB
     return scene;
 }
 
-/// A floor whose normals lean far to one side, and the walls beside it, which only the floor lights: the lamp
-/// is low and shines down.
+/// A floor with normals that lean far to one side, and walls that only the floor lights, because the lamp is
+/// low and shines down.
 LoadedScene leaningFloor() {
     SceneBuilder builder;
     Material grey;
@@ -150,9 +150,9 @@ std::vector<PairCase> pairCases() {
         cases.push_back({"SmoothSphere" + name, smoothSphere(reflectance)});
     }
     cases.push_back({"LeaningFloor", leaningFloor()});
-    // Seen through, a sphere would scatter on its inside, too.
+    // With both sides and transmission, a sphere would also scatter on its inside.
     cases.push_back({"SmoothSphereOneSided", smoothSphere(fullReflectance(), Sides::kFront)});
-    // Metal, flat and with normals that lean: shooting samples it in its own mode.
+    // Metal, flat and with leaning normals: the light tracer samples it in importance mode.
     const auto ofMetal = [](LoadedScene scene, float roughness) {
         for (Material& material : scene.materials) {
             material.metallic = material.emission.any() ? 0.0f : 0.8f;
@@ -164,7 +164,7 @@ std::vector<PairCase> pairCases() {
     cases.push_back({"MetalFloorGlossy", ofMetal(leaningFloor(), 0.6f)});
     cases.push_back({"MetalSphereGlossy", ofMetal(smoothSphere(fullReflectance()), 0.4f)});
     cases.push_back({"MetalFloorRough", ofMetal(leaningFloor(), 0.8f)});
-    // Points beside the lamp, or alone.
+    // Point emitters beside the lamp, or alone.
     LoadedScene lit = smoothSphere(fullReflectance());
     lit.pointEmitters = {{{-2, 3, 0.5f}, {30, 20, 10}, {5, 10, 15}}, {{1.5f, 1.5f, 1.5f}, {1, 2, 3}, {}}};
     cases.push_back({"PointsAndLamp", lit});
@@ -192,8 +192,8 @@ INSTANTIATE_TEST_SUITE_P(Nightly, Pair, testing::ValuesIn(nightlyCases(pairCases
                          [](const auto& test) { return test.param.name; });
 
 /// If both components arrive equally, every vertex must be connected, whichever component is displayed:
-/// Russian roulette is only for the component that is not displayed. The number of rays of identical paths
-/// shows this.
+/// Russian roulette applies only to the component that is not displayed. The number of rays of identical
+/// paths shows this.
 TEST(LightPaths, WhatIsDisplayedIsAlwaysConnected) {
     LoadedScene scene = byLight(emptyCornellBox());
     scene.reflectance = preset("global");
@@ -205,13 +205,13 @@ TEST(LightPaths, WhatIsDisplayedIsAlwaysConnected) {
     const std::uint64_t visible = raysToCamera({0, 1});
     EXPECT_EQ(raysToCamera({1, 0}), visible);
     EXPECT_EQ(raysToCamera({1, 1}), visible);
-    // An emitter that only shows on the component that is not displayed is connected seldom.
+    // An emitter that contributes only to the component that is not displayed is connected seldom.
     for (Material& material : scene.materials)
         material.emission.visible = glm::vec3(0.0f);
     EXPECT_LT(raysToCamera({0, 1}), visible);
 }
 
-/// A camera so near to a lit floor that it is a million times as bright as it emits.
+/// The camera is so near to a lit floor that the image is a million times as bright as the emission.
 TEST(LightPaths, ManyTimesBrighterThanItsEmitterIsHeld) {
     SceneBuilder builder;
     Material floor, lamp;
@@ -241,7 +241,7 @@ TEST(LightPaths, ManyTimesBrighterThanItsEmitterIsHeld) {
     EXPECT_NEAR(found, expected, 0.1 * expected);  // 4 standard errors
 }
 
-/// Light that grows 28 times with each bounce, in sums beyond 64 bits: in any order, and in any parts.
+/// Light that grows 28 times with each bounce, in sums beyond 64 bits, in any order and in any parts.
 TEST(LightPaths, SumsOfGrowingLightAreTheSameBits) {
     const std::vector<ExactCase> cases = enclosureCases();
     const auto growing = std::ranges::find(cases, "EnclosureGrowing", &ExactCase::name);

@@ -11,7 +11,7 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/tunings.h"
 
-// A scene that is uploaded once gives the same pictures as scenes that are uploaded for each.
+// A scene that is uploaded once gives the same images as one that is uploaded for each render.
 
 namespace duolux::test {
 namespace {
@@ -90,7 +90,7 @@ TEST_F(RendererTest, GivesTheSameBitsAfterAnyChange) {
         goThroughChanges(small(cornellBox()), tuning);
 }
 
-/// Emitters come first where surfaces coincide, so that their order depends on what emits.
+/// Emitters come first among coincident surfaces, so the order depends on which surfaces emit.
 TEST_F(RendererTest, GivesTheSameBitsWhereSurfacesCoincide) {
     LoadedScene scene = small(cornellBox());
     Geometry& geometry = scene.geometry;

@@ -12,7 +12,7 @@ namespace duolux::test {
 
 namespace {
 
-/// PFM of both components, PNG of the displayed one.
+/// Writes a PFM of each component and a PNG of the displayed one.
 void writeAll(const std::filesystem::path& stem, const RadianceImage& image) {
     ImageOptions options;
     writeImage(stem.string() + "-visible.pfm", image, options);

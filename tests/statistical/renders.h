@@ -30,7 +30,7 @@ std::optional<Renders> renderOtherEstimator(const LoadedScene& scene, std::uint3
 /// The same with the light tracer.
 Renders renderByLight(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds);
 
-/// Of cases that take long, one in three runs every time, the others only nightly.
+/// Of cases that take long, every third runs each time, the others only nightly.
 template <typename Case>
 std::vector<Case> oftenCases(const std::vector<Case>& cases) {
     std::vector<Case> chosen;

@@ -26,7 +26,7 @@ class Resume : public testing::TestWithParam<Integrator> {
         result.settings.integrator = GetParam();
         return result;
     }
-    /// So many surfaces on a ray that some drivers cut dispatches short.
+    /// So many surfaces on a ray that some drivers end dispatches early.
     static LoadedScene manyPanes() {
         LoadedScene result = stackedPanesCase(100).scene;
         result.settings.integrator = GetParam();

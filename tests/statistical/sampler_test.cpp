@@ -11,7 +11,7 @@
 #include "tests/support/scene_builder.h"
 
 // Both samplers must have the same mean, the low-discrepancy sampler must have less noise, and neither may
-// correlate pixels, on which every test of blocks relies.
+// correlate pixels, because all tests of blocks rely on that.
 
 namespace duolux::test {
 
@@ -29,7 +29,7 @@ LoadedScene smoothBox(Sampler sampler) {
     return scene;
 }
 
-/// Visible green, the brightest channel to the eye, of one pixel in all renders, less its mean.
+/// Visible green, the brightest channel to the eye, of one pixel in all renders, minus its mean.
 std::vector<double> deviations(const Renders& renders, std::size_t pixel) {
     std::vector<double> values;
     for (const RadianceImage& image : renders.images)
@@ -45,7 +45,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// Variance of a pixel over the seeds, mean over pixels.
+/// Variance of a pixel over the seeds, averaged over pixels.
 double pixelVariance(const Renders& renders) {
     const std::size_t pixels = renders.images.front().visible.size();
     double sum = 0.0;
@@ -56,8 +56,8 @@ double pixelVariance(const Renders& renders) {
     return sum / static_cast<double>(pixels);
 }
 
-/// Correlation over the seeds of pixels that are (dx, dy) apart: mean over all such pairs, in standard errors
-/// of that mean if they are independent.
+/// Correlation over the seeds between pixels that are (dx, dy) apart: the mean over all such pairs, in
+/// standard errors of that mean for independent pixels.
 double correlation(const Renders& renders, std::uint32_t dx, std::uint32_t dy) {
     const std::uint32_t width = renders.images.front().width, height = renders.images.front().height;
     double sum = 0.0, pairs = 0.0;
@@ -104,17 +104,18 @@ INSTANTIATE_TEST_SUITE_P(All, BothSamplers, testing::Values(Sampler::kSobol, Sam
                          });
 
 TEST(Samplers, IndependentNoiseFallsAsTheRootOfTheSamples) {
-    // Samples of a pixel that repeat or correlate would fall more slowly. 576 pixels of 15 degrees of freedom
-    // each: the ratio is 16 within a few percent, the pixels' noise not being alike.
+    // If samples of a pixel repeated or correlated, noise would decrease more slowly. 576 pixels with 15
+    // degrees of freedom each: the ratio is 16 within a few percent, because the noise differs between
+    // pixels.
     const double few = pixelVariance(renderSeeds(smoothBox(Sampler::kIndependent), 16, kSeeds));
     const double many = pixelVariance(renderSeeds(smoothBox(Sampler::kIndependent), 256, kSeeds));
     EXPECT_NEAR(few / many, 16.0, 3.0);
 }
 
 TEST(Samplers, SobolIsLessNoisyThanIndependent) {
-    // Root mean square error over pixels and seeds about the mean, at 256 samples. On a picture this smooth a
-    // scrambled Sobol sequence should halve it; dimensions reused between bounces or lights, or a sequence
-    // that is not stratified, would not. The ratio is known to about 2 %.
+    // Root mean square deviation from the mean over pixels and seeds, at 256 samples. For such a smooth
+    // image, a scrambled Sobol sequence should halve it, but not if dimensions are reused between bounces or
+    // lights, or the sequence is not stratified. The ratio is accurate to about 2 %.
     const double independent = pixelVariance(renderSeeds(smoothBox(Sampler::kIndependent), 256, kSeeds));
     const double sobol = pixelVariance(renderSeeds(smoothBox(Sampler::kSobol), 256, kSeeds));
     EXPECT_LT(std::sqrt(sobol / independent), 0.8);

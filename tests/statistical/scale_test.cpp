@@ -7,9 +7,8 @@
 #include "tests/support/cornell.h"
 #include "tests/support/scene_builder.h"
 
-// Radiance does not depend on the unit of length, nor on where the origin is. A ray offset that is an
-// absolute length, or too long beside the scene, darkens corners and contacts at some scales and lets light
-// leak at others.
+// Radiance does not depend on the unit of length or on the origin. A ray offset that is an absolute length,
+// or too long for the scene, darkens corners and contacts at some scales and leaks light at others.
 
 namespace duolux::test {
 
@@ -53,8 +52,8 @@ RadianceImage oneRender(const LoadedScene& scene) {
 class Scale : public testing::TestWithParam<float> {};
 
 TEST_P(Scale, SameImageAtAnyScale) {
-    // The same seeds give the same paths, but for those that rounding sends past the other side of an edge: a
-    // few in 10^5 bounces, of 64 samples a pixel. They differ by whole samples, of either sign.
+    // The same seeds give the same paths, except those that rounding sends past the other side of an edge: a
+    // few in 10^5 bounces, at 64 samples per pixel. They differ by whole samples of either sign.
     const Difference d = difference(oneRender(box()), oneRender(transformed(box(), GetParam())));
     EXPECT_LT(d.absolute, 1e-3);
     EXPECT_LT(std::abs(d.signedMean), 1e-4);
@@ -64,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(All, Scale, testing::Values(1e-2f, 0.1f, 2.0f, 100.0f, 
                          [](const auto& test) { return "Case" + std::to_string(test.index); });
 
 TEST(Translation, SameImageFarFromTheOrigin) {
-    // 20 times its size away the box's coordinates keep 19 bits.
+    // At 20 times its size from the origin, the box's coordinates keep 19 bits.
     const Difference d =
         difference(oneRender(box()), oneRender(transformed(box(), 1.0f, {8000, -9000, 11000})));
     EXPECT_LT(std::abs(d.signedMean), 1e-3);

@@ -9,7 +9,7 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/tunings.h"
 
-// Colours of vertices scale the light that a surface scatters, by an amount that is known at every point.
+// Vertex colours scale the light that a surface scatters, by a factor that is known at every point.
 
 namespace duolux::test {
 namespace {
@@ -19,14 +19,13 @@ glm::dvec3 colourAt(const glm::dvec3& p) {
     return {0.5 + 0.4 * p.x, 0.5 - 0.3 * p.z, 0.3 + 0.1 * p.x + 0.15 * p.z};
 }
 
-/// A floor from -1 to 1 of `white` or of colours, under a large lamp out of view.
+/// A floor from -1 to 1, white or with vertex colours, under a large lamp out of view.
 LoadedScene floorScene(bool coloured) {
     SceneBuilder builder;
     Material white;
     white.baseColor = glm::vec3(1.0f);
     const std::uint32_t material = builder.add(white);
-    // Neighbours share vertices and form pairs, whose shared edges are at different places of their
-    // triangles.
+    // Neighbours share vertices and form pairs, with the shared edge at different corners of the triangles.
     Geometry& geometry = builder.scene.geometry;
     geometry.positions = {{-1, 0, 1}, {0.2f, 0, 1}, {0.2f, 0, -1}, {-1, 0, -1}, {1, 0, -1}, {1, 0, 1}};
     geometry.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 2, 1}, {1, 5, 4}};
@@ -57,7 +56,7 @@ void expectColours(Integrator integrator, const TuningChoice& tuning) {
     RenderControl control;
     control.tuning = tuning;
     white.settings.integrator = coloured.settings.integrator = integrator;
-    // A small part of the particles reaches a pixel, and none may be without.
+    // Few particles reach a pixel, and each pixel needs some.
     if (integrator == Integrator::kLight) white.settings.spp = coloured.settings.spp = 2048;
     const std::vector<glm::vec3> expected = render(device(), white, control).film.resolve().visible;
     const std::vector<glm::vec3> actual = render(device(), coloured, control).film.resolve().visible;
@@ -73,7 +72,7 @@ void expectColours(Integrator integrator, const TuningChoice& tuning) {
                 glm::dvec3(ray.origin) -
                 glm::dvec3(ray.direction) * static_cast<double>(ray.origin.y / ray.direction.y);
             const glm::dvec3 ratio = glm::dvec3(actual[pixel]) / glm::dvec3(expected[pixel]);
-            // All samples of a pixel are within half its width, 0.0345, of its centre, and a colour is stored
+            // All samples of a pixel are within half its width, 0.0345, of its centre, and colours are stored
             // in steps of at most 0.002.
             for (int c = 0; c < 3; ++c)
                 ASSERT_NEAR(ratio[c], colourAt(p)[c], 0.016)

@@ -8,15 +8,15 @@
 
 namespace duolux::test {
 
-/// The address sanitizer needs more address space than any limit leaves.
+/// AddressSanitizer needs more address space than any limit allows.
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr bool kAddressSanitizer = true;
 #else
 inline constexpr bool kAddressSanitizer = false;
 #endif
 
-/// Limits the additional bytes that this process can map during its lifetime. Has no effect under the address
-/// sanitizer.
+/// Limits the additional bytes that this process can map during its lifetime. Has no effect under
+/// AddressSanitizer.
 class AddressSpaceLimit {
   public:
     explicit AddressSpaceLimit(std::size_t more) {

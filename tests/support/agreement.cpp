@@ -13,7 +13,7 @@ namespace duolux::test {
 namespace {
 
 constexpr const char* kComponent[2] = {"invisible", "visible"};
-/// A pixel has few distinct values, so that a few renders may agree by chance, which leaves no variance for a
+/// A pixel has few distinct values, so a few renders may agree by chance, which leaves no variance for a
 /// test.
 constexpr std::size_t kEnoughForPixels = 10;
 constexpr char kChannel[3] = {'r', 'g', 'b'};
@@ -28,7 +28,7 @@ struct RenderedMean {
     std::size_t reached = 0;  ///< renders in which it is not 0
 };
 
-/// Mean over the renders of one value of a block's pixels.
+/// Mean over the renders of one component and channel of a block.
 RenderedMean meanOver(std::span<const RadianceImage> renders, int component, const Block& block,
                       int channel) {
     const auto count = static_cast<double>(renders.size());
@@ -122,7 +122,7 @@ Values collect(std::span<const RadianceImage> renders, const reference::Estimate
     return values;
 }
 
-/// Tests all blocks of `size` pixels a side, and notes the statistics in `z` if those are pixels.
+/// Tests all blocks with `size` pixels a side, and stores the statistics in `z` if blocks are pixels.
 void judgeScale(const Values& values, std::span<const RadianceImage> renders, std::uint32_t size,
                 double alpha, const Criterion& criterion, Agreement& agreement) {
     const std::uint32_t across = (values.width + size - 1) / size, down = (values.height + size - 1) / size;

@@ -10,8 +10,8 @@
 namespace duolux::test {
 
 struct Criterion {
-    double alpha = 1e-4;     ///< probability that any test of the family fails though the means agree
-    double relative = 1e-5;  ///< of the expected value: what is not statistical, such as rounding
+    double alpha = 1e-4;     ///< probability that any test of the family fails if the means agree
+    double relative = 1e-5;  ///< of the expected value: errors that are not statistical, such as rounding
     double absolute = 1e-9;  ///< radiance
     /// The renders are by the light tracer. A light path may reach many pixels, so pixels are not
     /// independent, and the variance of a block is that of its mean over the renders. If fewer than 10
@@ -23,16 +23,16 @@ struct Criterion {
 /// The verdict on a set of images.
 struct Agreement {
     bool agrees = true;
-    std::string report;  ///< the worst of every scale, and what failed
+    std::string report;  ///< the worst results of every scale, and the failures
     RadianceImage meanImage;
     RadianceImage z;  ///< signed Welch statistic per pixel where tested, both components
 };
 
-/// Judges independent renders (one a seed, at least 2) of a scene whose expectation is known, exactly or with
-/// variances. Welch's t per component and channel on blocks of 4 and 8 pixels a side and on the whole image,
-/// and with 10 renders or more on every pixel: noise averages out as the blocks grow, a bias does not. Each
-/// scale gets a quarter of alpha, divided by Sidak's rule among its tests. With 10 renders or more the mean
-/// square of t over all pixels is tested too.
+/// Judges independent renders (one per seed, at least 2) of a scene with a known expectation, exact or with
+/// variances. Uses Welch's t per component and channel on blocks of 4 and 8 pixels a side and on the whole
+/// image, and with 10 renders or more on every pixel: noise averages out as the blocks grow, a bias does not.
+/// Each scale gets a quarter of alpha, divided by Sidak's rule among its tests. With 10 renders or more, also
+/// tests the mean square of t over all pixels.
 Agreement judge(std::span<const RadianceImage> renders, const reference::Estimates& expected,
                 const Criterion& criterion = {});
 

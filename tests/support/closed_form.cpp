@@ -8,7 +8,7 @@ namespace duolux::test {
 
 namespace {
 
-/// Sutherland-Hodgman against one plane: what lies where dot(normal, p) > 0.
+/// Sutherland-Hodgman against one plane: the part of the polygon where dot(normal, p) > 0.
 std::vector<Vec3> clipToHorizon(const std::vector<Vec3>& polygon, const Vec3& normal) {
     std::vector<Vec3> clipped;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -43,7 +43,7 @@ double lambertPolygon(const Vec3& point, const Vec3& normal, std::span<const Vec
         const double sine = glm::length(axis);
         if (sine > 0.0) sum += std::atan2(sine, glm::dot(p, q)) * glm::dot(axis / sine, normal);
     }
-    // The winding seen from the point only decides the sign.
+    // The sign depends only on the winding as seen from the point.
     return 0.5 * std::abs(sum);
 }
 

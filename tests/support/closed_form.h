@@ -17,16 +17,15 @@ using reference::Vec3;
 ChannelLight enclosureRadiance(const ChannelMatrix& scatter, const ChannelLight& emission,
                                std::uint32_t bounces);
 
-/// Integral of the cosine with `normal` over the solid angle of a plane convex polygon seen from `point`, the
-/// part above the horizon: half the sum over its edges of their angle times the unit normal of the plane
-/// through the edge and the point (J. H. Lambert, Photometria, 1760; the polygon is first clipped to the
-/// horizon).
+/// Integral of the cosine with `normal` over the solid angle of a plane convex polygon seen from `point`,
+/// above the horizon: half the sum over its edges of their angle times the unit normal of the plane through
+/// the edge and the point (J. H. Lambert, Photometria, 1760), after the polygon is clipped to the horizon.
 double lambertPolygon(const Vec3& point, const Vec3& normal, std::span<const Vec3> polygon);
 
-/// An image whose pixels are all known exactly to be `light`.
+/// An image with the exact value `light` in all pixels.
 reference::Estimates uniformImage(std::uint32_t width, std::uint32_t height, const ChannelLight& light);
 
-/// Makes `light` the exact value of a pixel.
+/// A pixel with the exact value `light`.
 reference::Estimate exactly(const ChannelLight& light);
 
 }  // namespace duolux::test

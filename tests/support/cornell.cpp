@@ -29,7 +29,7 @@ void addRoom(SceneBuilder& b) {
     b.quad({549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, 548.8f, 559.2f}, {556, 548.8f, 559.2f}, kWhite);
     b.quad({0, 0, 559.2f}, {0, 0, 0}, {0, 548.8f, 0}, {0, 548.8f, 559.2f}, kGreen);
     b.quad({552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0}, kRed);
-    // A little below the ceiling, so that the two are met in a definite order.
+    // Slightly below the ceiling, so that the two are hit in a definite order.
     b.quad({343, 548.3f, 227}, {343, 548.3f, 332}, {213, 548.3f, 332}, {213, 548.3f, 227}, kLight);
 }
 

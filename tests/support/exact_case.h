@@ -14,7 +14,7 @@ struct ExactCase {
     std::string name;   ///< letters and digits
     LoadedScene scene;  ///< size and bounces set
     reference::Estimates expected;
-    /// The light search with a finite variance; only the reference needs it.
+    /// A light search with finite variance; only the reference needs it.
     reference::LightSearch search = reference::LightSearch::kDirection;
     double relative = 1e-5;  ///< error of the closed form and of single precision
     bool onePoint =
@@ -29,25 +29,25 @@ inline void PrintTo(const ExactCase& exact, std::ostream* out) {
 /// Closed sphere seen from inside, uniform emission: L = sum over k of (albedo O)^k E.
 std::vector<ExactCase> enclosureCases();
 
-/// The same with metallic walls, which the reference does not know.
+/// The same with metallic walls, which the reference does not support.
 std::vector<ExactCase> metalCases();
 
-/// A diffuse receiver under points, which the reference does not know.
+/// A diffuse receiver under point emitters, which the reference does not support.
 std::vector<ExactCase> pointCases();
 
-/// Concentric spheres that pass light on: products of T in the order met from the camera.
+/// Concentric spheres that transmit light: products of T in the order of crossings from the camera.
 std::vector<ExactCase> crossingCases();
 
-/// Objects whose emission compensates for the light that they absorb: the image is uniform for all shapes.
+/// Objects whose emission compensates for the light that they absorb: a uniform image for all shapes.
 std::vector<ExactCase> furnaceCases();
 
 /// A diffuse receiver below an unoccluded rectangle: Lambert's polygon formula.
 std::vector<ExactCase> lambertCases();
 
-/// The same with something between receiver and rectangle: products of T in the order met from the receiver.
+/// The same with panes between receiver and rectangle: products of T in the order from the receiver.
 std::vector<ExactCase> blockerCases();
 
-/// One of them, with any number of panes.
+/// One of these cases, with any number of panes.
 ExactCase stackedPanesCase(int count);
 
 /// All of the above.

@@ -45,7 +45,7 @@ ProgramResult runProgram(const std::string& program, const std::filesystem::path
         dup2(open("/dev/null", O_RDONLY), 0);
         dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), 1);
         dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), 2);
-        alarm(static_cast<unsigned>(limit.count()));  // a program that hangs fails its test
+        alarm(static_cast<unsigned>(limit.count()));  // ends a program that hangs
         execve(argv[0], argv.data(), envp.data());
         _exit(126);
     }

@@ -33,7 +33,7 @@ class SceneBuilder {
     LoadedScene scene;  ///< geometry and materials are filled by the calls above; the rest is the caller's
 };
 
-/// The same scene `scale` times as large, about the origin, then moved.
+/// The same scene scaled by `scale` about the origin, then moved.
 LoadedScene transformed(LoadedScene scene, float scale, glm::vec3 offset = glm::vec3(0.0f));
 
 }  // namespace duolux::test

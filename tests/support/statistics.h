@@ -20,7 +20,7 @@ struct ChiSquare {
     double p = 1.0;
 };
 /// `observed` and `expected`: counts with equal sums up to rounding. Bins are merged, those with the lowest
-/// expectations first, until each expects at least `minimum`. p is 0 if a bin that expects nothing is not
+/// expectations first, until each expects at least `minimum`. p is 0 if a bin with expectation 0 is not
 /// empty, or if only one bin remains.
 ChiSquare chiSquare(std::span<const double> observed, std::span<const double> expected, double minimum = 5.0);
 

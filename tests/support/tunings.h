@@ -18,7 +18,7 @@ inline std::vector<TuningChoice> allTunings(const DeviceInfo& device) {
     return all;
 }
 
-/// For messages; of one of allTunings.
+/// The name of one of allTunings, for messages.
 inline std::string nameOf(const TuningChoice& choice) {
     return std::string(duolux::nameOf(*choice.layout)) + ", " + duolux::nameOf(*choice.kernel);
 }

@@ -2,12 +2,12 @@
 
 #include "tests/support/exact/receiver.h"
 
-// Between receiver and luminaire there are two panes; a ray from the receiver crosses the lower one first. By
-// eq. 16 the receiver has the radiance albedo / pi O T_lower T_upper E times Lambert's formula. Commuting
-// matrices T test whether transmittance is applied at all, others whether it is multiplied in order on
-// segments whose traversal may find surfaces in any order. Shortcuts that skip a shadow ray if no surface can
-// block light (`local`), or end it at the first hit (T = 0), must consider every material, not only the
-// scene's reflectance.
+// Two panes are between the receiver and the luminaire; a ray from the receiver crosses the lower one first.
+// By eq. 16 the radiance of the receiver is albedo / pi O T_lower T_upper E times Lambert's formula.
+// Commuting matrices T test whether transmittance is applied at all; others test whether it is multiplied in
+// order on segments whose traversal may find surfaces in any order. Shortcuts that skip a shadow ray if no
+// surface can block light (`local`), or end it at the first hit (T = 0), must consider every material, not
+// only the scene's reflectance.
 
 namespace duolux::test {
 
@@ -56,7 +56,7 @@ ExactCase blocked(std::string name, const Setup& setup) {
     receiver.reflectance = setup.receiver;
     ReceiverScene scene(receiver, kEye);
     scene.builder().scene.reflectance = setup.scene;
-    // In two parts at the plane x = 0, where a half pane's edge lies as seen from the origin.
+    // In two parts at the plane x = 0, where the edge of a half pane lies as seen from the origin.
     const std::vector<Vec3> left = downwardRectangle(-0.8, 0.0, -0.5, 0.9, 2),
                             whole = downwardRectangle(-0.8, 0.6, -0.5, 0.9, 2);
     const double leftFactor = lambertPolygon(Vec3(0.0), Vec3(0, 1, 0), left);
@@ -120,7 +120,7 @@ std::vector<ExactCase> blockerCases() {
     add("BlockerTealAmber", {mixing, preset("global"), {{kTeal, 0.7f}, {kAmber, 1.3f}}});
     add("BlockerTealAmberTeal", {mixing, preset("global"), {{kTeal, 0.5f}, {kAmber, 0.7f}, {kTeal, 1.6f}}});
     add("BlockerHalfAmberTeal", {mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f, true}}});
-    // Panes listed from the top: the order of the triangles must not decide.
+    // Panes listed from the top: the order of the triangles must not matter.
     Setup shuffled{mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f}}};
     ExactCase reversed = blocked("BlockerListedFromTop", shuffled);
     std::reverse(reversed.scene.geometry.triangles.begin(), reversed.scene.geometry.triangles.end());
@@ -129,7 +129,7 @@ std::vector<ExactCase> blockerCases() {
     // Two panes at the same place are two panes, and nothing limits their number.
     add("BlockerCoincident", {mixing, preset("global"), {{kAmber, 0.7f}, {kAmber, 0.7f}}});
     cases.push_back(stackedPanesCase(24));
-    // Strictly triangular T's: their product is zero in this order, and non-zero in the other.
+    // Strictly triangular matrices T: their product is zero in this order, and non-zero in the other.
     const LightMatrix raise = matrix(0, 1, 0, 0), lower = matrix(1, 0, 0, 0);
     add("BlockerExtinct", {mixing, preset("global"), {{raise, 0.7f}, {lower, 1.3f}}});
     add("BlockerNotExtinct", {mixing, preset("global"), {{lower, 0.7f}, {raise, 1.3f}}});

@@ -2,10 +2,10 @@
 #include "tests/support/exact_case.h"
 #include "tests/support/scene_builder.h"
 
-// Concentric closed spheres: every ray meets the same surfaces in the same order, so that the radiance is a
-// fixed word in the matrices T and the emissions E. T's that do not commute tell a product built in the wrong
-// order, on camera rays (bounces = 0, no noise at all) and on shadow rays (bounces > 0). Emission from the
-// wrong side, a crossing missed or counted twice, and channels mixed up show as well.
+// Concentric closed spheres: every ray crosses the same surfaces in the same order, so the radiance is a
+// fixed expression in the matrices T and the emissions E. Matrices T that do not commute detect products in
+// the wrong order, on camera rays (bounces = 0, no noise at all) and on shadow rays (bounces > 0). Also
+// detects emission from the wrong side, crossings missed or counted twice, and mixed-up channels.
 
 namespace duolux::test {
 
@@ -83,7 +83,7 @@ std::vector<ExactCase> crossingCases() {
         fromOutside("CrossingOutsideBothSidesBA", kSecond, kFirst, Sides::kBoth),
         // A nilpotent T: light that crosses it twice vanishes.
         fromOutside("CrossingNilpotent", kFirst, matrix(0.0f, 1.0f, 0.0f, 0.0f), Sides::kBoth),
-        // What the camera sees through, while invisible light passes as in `local`: needs no second column.
+        // The camera sees through these, and invisible light passes as in `local`: it needs no second column.
         fromOutside("CrossingSeeThrough", matrix(1.0f, 0.0f, 1.0f, 0.0f), matrix(1.0f, 0.0f, 1.0f, 0.0f),
                     Sides::kBoth),
         fromCentre("CrossingCentre", kFirst, kSecond, 0), fromCentre("CrossingCentreAB1", kFirst, kSecond, 1),

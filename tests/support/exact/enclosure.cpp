@@ -4,20 +4,20 @@
 #include "tests/support/exact_case.h"
 #include "tests/support/scene_builder.h"
 
-// Inside a closed convex enclosure of uniform emission every direction meets exactly one wall, whose radiance
-// does not depend on the place: L = E + albedo O L, cut off after the allowed bounces. T leads out of the
-// enclosure, where nothing is, and so must not matter. A wall met twice by one ray (a wrong ray offset), a
-// wrong pdf of light or direction sampling, a wrong MIS weight, roulette that forgets to divide, an O applied
-// from the wrong side or a miscounted bounce all show.
+// Inside a closed convex enclosure of uniform emission, every direction hits exactly one wall, whose radiance
+// is the same everywhere: L = E + albedo O L, cut off after the allowed bounces. T leads out of the
+// enclosure, where there is nothing, so it must not matter. Detects walls hit twice by one ray (a wrong ray
+// offset), wrong pdfs of light or direction sampling, wrong MIS weights, roulette without division, an O
+// applied from the wrong side, and miscounted bounces.
 
 namespace duolux::test {
 
 namespace {
 
-// One albedo a channel: each case is three.
+// A different albedo per channel: each case is three.
 const glm::vec3 kAlbedo{0.1f, 0.5f, 0.8f};
 
-/// White metal, which returns everything.
+/// White metal, which reflects everything.
 struct Metal {
     float metallic, roughness;
 };
@@ -78,14 +78,14 @@ std::vector<ExactCase> enclosureCases() {
     cases.push_back(enclosure("EnclosureFullOpaque", {opaqueOnly, 24}));
     cases.push_back(enclosure("EnclosureFull", {fullReflectance(), 24, Sides::kBoth}));
 
-    // The series itself: the n-th term is there if and only if n bounces are allowed.
+    // The series itself: the n-th term is present if and only if n bounces are allowed.
     for (std::uint32_t bounces : {0u, 1u, 2u, 3u, 5u}) {
         cases.push_back(enclosure("EnclosureFullBounces" + std::to_string(bounces),
                                   {fullReflectance(), bounces, Sides::kBoth}));
     }
-    // Deep paths: 0.8^65 = 5e-7 is left out of the infinite sum, and the expectation knows.
+    // Deep paths: the limit leaves 0.8^65 = 5e-7 out of the infinite sum, and so does the expectation.
     cases.push_back(enclosure("EnclosureDeep", {preset("global"), 64}));
-    // Spectral radius 1.6 in blue: each bounce returns more than it got, and six of them have a definite sum.
+    // Spectral radius 1.6 in blue: each bounce returns more than it receives; six bounces have a finite sum.
     cases.push_back(enclosure("EnclosureGrowing", {Reflectance{matrix(2.0f, 0.0f, 1.0f, 0.0f), {}}, 6}));
     cases.push_back(enclosure("EnclosureDark", {preset("shadowless"), 24, Sides::kBoth, {}}));
     // Only visible light, and an O that turns it into invisible light and back.
@@ -97,7 +97,7 @@ std::vector<ExactCase> enclosureCases() {
 }
 
 std::vector<ExactCase> metalCases() {
-    // Half of what arrives is passed on at each bounce. The fits of multiple scattering are good to 1 %.
+    // Each bounce passes on half of the light. The fits of multiple scattering are accurate to 1 %.
     const Reflectance half{matrix(0.5f, 0.0f, 1.0f, 0.0f), {}};
     const Emission emission = Walls{}.emission;
     std::vector<ExactCase> cases;
@@ -110,7 +110,7 @@ std::vector<ExactCase> metalCases() {
     add("Glossy", half, {1.0f, 0.4f});
     add("Mixed", half, {0.5f, 0.6f});
     add("Crossed", {half.opaque, matrix(0.5f, 0.0f, 0.0f, 0.0f)}, {1.0f, 0.7f});
-    // Exact, but no light path can be connected to the camera from a mirror.
+    // Exact, but light paths cannot connect a mirror to the camera.
     add("Mirror", half, {1.0f, 0.0f});
     cases.back().relative = 1e-5;
     cases.back().onePoint = true;

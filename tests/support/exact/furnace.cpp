@@ -5,12 +5,11 @@
 #include "tests/support/exact_case.h"
 #include "tests/support/scene_builder.h"
 
-// Let every surface m of a closed scene emit E_m = (1 - q) (I - T_m) L on both sides and scatter so that
-// albedo O_m L = q (I - T_m) L, for one vector L and number q. Radiance L everywhere then solves eq. 16, and
-// the part that n bounces leave out is q^(n+1) L: along any ray the sum over crossings of T_1..T_(k-1) (I -
-// T_k) L telescopes to L, the outermost T being 0. So the image is (1 - q^(n+1)) L in every pixel, whatever
-// the shapes, the T's and their order. Objects that intersect and share no symmetry put every product of
-// matrices to the test.
+// Every surface m of a closed scene emits E_m = (1 - q) (I - T_m) L on both sides and scatters so that albedo
+// O_m L = q (I - T_m) L, for one vector L and number q. Radiance L everywhere then solves eq. 16, and n
+// bounces leave out q^(n+1) L: along any ray, the sum over crossings of T_1..T_(k-1) (I - T_k) L telescopes
+// to L, because the outermost T is 0. So the image is (1 - q^(n+1)) L in every pixel, for any shapes and any
+// T in any order. Objects that intersect without symmetry test every product of matrices.
 
 namespace duolux::test {
 
@@ -20,7 +19,7 @@ const ChannelLight kLight = {{{1.0, 0.5}, {0.8, 1.6}, {0.3, 1.0}}};
 const double kKept[3] = {0.5, 0.75, 0.25};  ///< q per channel
 constexpr double kAlbedo = 0.5;
 
-/// The material of that furnace for a transmittance; `lean` says how O divides between its columns, 0..1.
+/// The material of that furnace for a transmittance; `lean`, 0..1, divides O between its columns.
 Material furnaceMaterial(const char* name, const LightMatrix& transparent, double lean) {
     Material material;
     material.name = name;
@@ -44,7 +43,7 @@ Material furnaceMaterial(const char* name, const LightMatrix& transparent, doubl
 }
 
 ExactCase furnace(std::string name, bool panes, std::uint32_t bounces) {
-    // T L <= L in both components, so that no emission or scattering is negative.
+    // T L <= L in both components, so emission and scattering are non-negative.
     const LightMatrix a{{0.2f, 0.6f, 0.1f}, {0.5f, 0.1f, 0.2f}, {0.1f, 0.7f, 0.9f}, {0.2f, 0.5f, 0.1f}};
     const LightMatrix b{{0.7f, 0.1f, 0.2f}, {0.1f, 0.3f, 0.1f}, {0.2f, 0.2f, 0.4f}, {0.4f, 0.3f, 0.7f}};
     const LightMatrix c{{0.0f, 0.2f, 0.3f}, {0.8f, 0.2f, 0.1f}, {0.3f, 0.0f, 0.5f}, {0.0f, 0.6f, 0.2f}};
@@ -84,7 +83,7 @@ std::vector<ExactCase> furnaceCases() {
         cases.push_back(furnace("FurnaceSolids" + std::to_string(bounces), false, bounces));
         cases.push_back(furnace("FurnacePanes" + std::to_string(bounces), true, bounces));
     }
-    // Both components are wanted whatever is displayed.
+    // Both components count, whatever is displayed.
     for (const auto& [name, display] : {std::pair("FurnaceDisplayInvisible", glm::vec2(1.0f, 0.0f)),
                                         std::pair("FurnaceDisplayDifference", glm::vec2(-1.0f, 0.5f))}) {
         cases.push_back(furnace(name, true, 2));

@@ -4,10 +4,10 @@
 #include "tests/reference/pinhole.h"
 #include "tests/support/exact/receiver.h"
 
-// The paper's `local` (eq. 14): direct light that nothing occludes. On a diffuse receiver it is
-// L = albedo / pi O E times Lambert's formula for the polygon clipped to the horizon. A solid-angle or area
-// pdf that is off, a cosine at the wrong end, emitters or receivers that act on the wrong side, and a wrong
-// choice among several emitters show.
+// The paper's `local` (eq. 14): direct light without occlusion. On a diffuse receiver it is L = albedo / pi O
+// E times Lambert's formula for the polygon clipped to the horizon. Detects wrong solid-angle or area pdfs, a
+// cosine at the wrong end, emitters or receivers that act on the wrong side, and a wrong choice among several
+// emitters.
 
 namespace duolux::test {
 
@@ -33,7 +33,7 @@ struct Setup {
     ReceiverScene::Receiver receiver;
     std::vector<Vec3> polygon;
     glm::vec3 eye = kEye;
-    /// Of the emission that reaches the lit side; computed from the winding's front if not given.
+    /// Projected solid angle of the emission that reaches the lit side; by default, for the front.
     std::optional<double> factor = std::nullopt;
 };
 
@@ -42,7 +42,7 @@ ExactCase lambert(std::string name, const Setup& setup) {
     scene.emitter(setup.polygon, kGlow, preset("local"));
     const Vec3 normal = glm::normalize(Vec3(setup.receiver.normal));
     const double factor = setup.factor ? *setup.factor : lambertPolygon(Vec3(0.0), normal, setup.polygon);
-    // `local` has no second bounce however many are allowed.
+    // `local` has no second bounce, however many are allowed.
     return scene.finish(std::move(name), 4, scene.reflected(factor * light(kGlow)));
 }
 
@@ -63,14 +63,14 @@ ExactCase twoEmitters() {
 struct Floor {
     std::string name;
     Reflectance reflectance;
-    /// Panes between the floor and both the lamp and the camera, from the top; they absorb what they do not
-    /// pass.
+    /// Panes between the floor and both lamp and camera, from the top; they absorb the light that they do not
+    /// transmit.
     std::vector<LightMatrix> panes;
-    float distance = 0.25f;  ///< of panes
+    float distance = 0.25f;  ///< between panes
 };
 
-/// A whole image of a floor, so that a mirrored, rotated or shifted camera shows. With panes the camera sees
-/// T_1 T_2 ... albedo / pi O ... T_2 T_1 E times Lambert's formula.
+/// A whole image of a floor, to detect a mirrored, rotated or shifted camera. With panes, the camera sees T_1
+/// T_2 ... albedo / pi O ... T_2 T_1 E times Lambert's formula.
 ExactCase floorImage(const Floor& setup) {
     constexpr std::uint32_t kSize = 24;
     SceneBuilder builder;
@@ -132,11 +132,11 @@ std::vector<ExactCase> lambertCases() {
     add("LambertFar", {flat, downwardRectangle(-1, 1, -0.5, 0.5, 10)});
     add("LambertAside", {flat, downwardRectangle(-4, -2, 1, 2, 1.5)});
     add("LambertTilted", {receiver({0.5f, 1.0f, 0.3f}), square});
-    // Partly below the horizon: by the tilt, and by a vertical receiver that the rectangle straddles.
+    // Partly below the horizon: by the tilt, and for a vertical receiver whose horizon cuts the rectangle.
     add("LambertHorizon", {receiver({2.0f, 1.0f, 0.5f}), downwardRectangle(-3, 1, -1, 2, 1.5)});
     add("LambertVertical", {receiver({1, 0, 0}), downwardRectangle(-1, 1, -1, 1, 1)});
     add("LambertBelow", {receiver({1, 0, 0}), downwardRectangle(-3, -1, -1, 1, 1)});
-    // f_opaque acts where light and camera are on the same side, and on the front only if told so.
+    // f_opaque acts if light and camera are on the same side; a one-sided one, only on the front.
     ReceiverScene::Receiver turned = receiver({0, -1, 0});
     add("LambertBackOfReceiver", {turned, square, kEye, squareFactor});
     turned.sides = Sides::kFront;
@@ -152,7 +152,7 @@ std::vector<ExactCase> lambertCases() {
                            {}};
     cases.push_back(floorImage({"LambertFloorAmberTeal", full, {amber, teal}}));
     cases.push_back(floorImage({"LambertFloorTealAmber", full, {teal, amber}}));
-    // The ray crosses both, one after the other.
+    // The ray crosses both panes, one after the other.
     const LightMatrix half = matrix(0.5f, 0, 0, 0.75f), third = matrix(0.3f, 0, 0, 0.6f);
     cases.push_back(floorImage({"LambertFloorCoincidentPanes", full, {half, third}, 0.0f}));
     cases.push_back(floorImage({"LambertFloorOpaqueToVisible", preset("global"), {matrix(1, 0, 0, 0)}}));

@@ -2,9 +2,9 @@
 
 #include "tests/support/exact/receiver.h"
 
-// Point emitters: on a diffuse receiver L = albedo / pi O I cos / d^2 from each. A distance or a cosine that
-// is off, a weight of multiple importance sampling for what only one strategy finds, a choice among several
-// emitters that is not divided out, and a point that is met or seen show.
+// Point emitters: each adds L = albedo / pi O I cos / d^2 on a diffuse receiver. Detects a wrong distance or
+// cosine, multiple importance sampling of emitters that only one strategy finds, a choice among several
+// emitters without division by its probability, and points that are hit or seen.
 
 namespace duolux::test {
 
@@ -40,7 +40,7 @@ ExactCase lit(std::string name, const Reflectance& reflectance, const std::vecto
             {glm::vec3(point.position), point.invisible, point.visible});
         sum = sum + irradiance(point, glm::normalize(Vec3(normal)));
     }
-    // With stratified choices among so few points, errors of several pixels are equal, and do not vary with
+    // With stratified choices among so few points, several pixels have equal errors, which do not vary with
     // the seed.
     scene.builder().scene.settings.sampler = Sampler::kIndependent;
     return scene.finish(std::move(name), 3, scene.reflected(sum));

@@ -22,7 +22,7 @@ ReceiverScene::ReceiverScene(const Receiver& receiver, glm::vec3 eye) : receiver
     builder_.quad(-u - v, u - v, u + v, v - u, index);
     LoadedScene& scene = builder_.scene;
     scene.reflectance = preset("local");
-    // Seen at a grazing angle the footprint is 0.0001 across, and centred on the origin.
+    // At a grazing angle, the footprint is 0.0001 across, and centred on the origin.
     scene.camera = {4.0f * glm::normalize(eye), glm::vec3(0.0f), {0, 1, 0}, 0.0002f};
     scene.settings.width = scene.settings.height = 16;
 }

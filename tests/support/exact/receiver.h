@@ -8,11 +8,10 @@
 
 namespace duolux::test {
 
-/// A horizontal rectangle of corners (x0, y, z0) and (x1, y, z1), in the order that makes its front face
-/// down.
+/// A horizontal rectangle with the corners (x0, y, z0) and (x1, y, z1) that faces down.
 std::vector<Vec3> downwardRectangle(double x0, double x1, double z0, double z1, double y);
 
-/// A small diffuse surface about the origin looked at so closely that every pixel sees the one point, and
+/// A small diffuse surface about the origin, seen so closely that every pixel shows the same point; and
 /// emitters.
 class ReceiverScene {
   public:

@@ -1,9 +1,9 @@
 // A Vulkan layer that makes a device fail, so that tests can check how the program reacts. Environment
 // variables:
-//   DUOLUX_FAULT_LOST=N      the device is lost with the N-th submission (from 0), and stays lost
+//   DUOLUX_FAULT_LOST=N      the device is lost at the N-th submission (from 0), and stays lost
 //   DUOLUX_FAULT_MEMORY=N    the N-th allocation (from 0) finds no device memory
 //   DUOLUX_FAULT_HEAP=BYTES  all memory heaps are that large
-// Tests enable it by VK_LAYER_PATH and VK_INSTANCE_LAYERS. One device a process.
+// Tests enable it by VK_LAYER_PATH and VK_INSTANCE_LAYERS. One device per process.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -36,7 +36,7 @@ Function next(const char* name) {
     return reinterpret_cast<Function>(nextDeviceProc(deviceOfAll, name));
 }
 
-/// The link of a chain of structures in which the loader tells the layer what comes next.
+/// The link in a chain of structures by which the loader tells the layer what comes next.
 template <typename Link>
 Link* findLink(const void* chain, VkStructureType type) {
     for (auto* link = static_cast<Link*>(const_cast<void*>(chain)); link != nullptr;
@@ -57,7 +57,7 @@ VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, const VkAll
     const VkResult result = create(info, allocator, instance);
     if (result != VK_SUCCESS) return result;
     instanceOfAll = *instance;
-    // Later the loader would answer with this layer's own.
+    // Later, the loader would return this layer's own functions.
     nextMemoryProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
         nextInstanceProc(*instance, "vkGetPhysicalDeviceMemoryProperties"));
     nextMemoryProperties2 = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties2>(
@@ -86,7 +86,7 @@ VkResult VKAPI_CALL queueSubmit(VkQueue queue, std::uint32_t count, const VkSubm
 
 VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
                                   std::uint64_t timeout) {
-    // What the driver still has in flight must end before it is destroyed, lost or not.
+    // Work that the driver still has in flight must end before it is destroyed, even on a lost device.
     const VkResult result = next<PFN_vkWaitForFences>("vkWaitForFences")(device, count, fences, all, timeout);
     return lost ? VK_ERROR_DEVICE_LOST : result;
 }
