@@ -44,9 +44,9 @@ TEST(ProgressLine, ShowsPercentageRateAndTimeLeft) {
     EXPECT_EQ(progressLine({2.5e6, 10e6, 2.0, {}}, 0, false), " 25 % 1.25 Msamples/s, 0:06 left");
     EXPECT_EQ(progressLine({10e6, 10e6, 8.0, {}}, 0, true), "100 % 1.25 Msamples/s, 8.0 s in all");
     EXPECT_EQ(progressLine({0.0, 10e6, 0.0, {}}, 0, false), "  0 %");
-    // Stopped by a time limit: what has been done, not what has passed.
+    // Stopped by a time limit: shows the work done, not the time that has passed.
     EXPECT_EQ(progressLine({1e6, 10e6, 8.0, 8.0}, 0, true), " 10 % 0.12 Msamples/s, 8.0 s in all");
-    // Not quite done is not 100 %.
+    // Nearly complete work is not shown as 100 %.
     EXPECT_THAT(progressLine({9.999e6, 10e6, 8.0, {}}, 0, false), HasSubstr(" 99 %"));
 }
 
@@ -57,7 +57,7 @@ TEST(ProgressLine, DrawsABarOfTheGivenWidth) {
     EXPECT_EQ(progressLine({0.5, 1.0, 0.0, {}}, 2, true), " 50 %, 0.0 s in all");
 }
 
-/// What a Progress of this style wrote while `use` ran.
+/// The output of a Progress of this style while `use` runs.
 template <typename Use>
 std::string outputOf(Progress::Style style, Use use) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);

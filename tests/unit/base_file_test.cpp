@@ -42,7 +42,7 @@ class FileTest : public testing::Test {
         EXPECT_EQ(::stat(path.c_str(), &status), 0) << path;
         return status.st_mode & 07777;
     }
-    /// The message of the MachineError that this throws, if it does.
+    /// The message of the MachineError that the step throws, if any.
     static std::string errorOf(const std::function<void()>& step) {
         try {
             step();
@@ -53,8 +53,8 @@ class FileTest : public testing::Test {
     }
 
     static constexpr uid_t kNobody = 65534;
-    /// In a process of a user without privileges who owns the folder and what is in it; returns its exit
-    /// status.
+    /// Runs the step in a process of an unprivileged user who owns the folder and its contents; returns the
+    /// exit status.
     int asAnotherUser(const std::function<int()>& step) const {
         return inAnotherProcess([&] {
             if (::geteuid() == 0) {
@@ -70,8 +70,8 @@ class FileTest : public testing::Test {
         });
     }
 
-    /// In a process that may mount and whose mounts no other process sees; users without privileges need a
-    /// user namespace for this.
+    /// Runs the step in a process that may mount, and whose mounts are invisible to other processes;
+    /// unprivileged users need a user namespace for this.
     int whereMountsArePrivate(const std::function<int()>& step) const {
         return inAnotherProcess([&] {
             const uid_t user = ::geteuid();
@@ -134,7 +134,7 @@ TEST_F(FileTest, WritesBesideTheOldFileUntilAllIsThere) {
     EXPECT_EQ(filesInFolder(), 1u);
 }
 
-/// The temporary of the file being written.
+/// The temporary file of the file that is being written.
 fs::path temporaryIn(const fs::path& folder, const fs::path& path) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (entry.path() != path) return entry.path();
@@ -231,7 +231,7 @@ TEST_F(FileTest, OnlyOnesOwnLinksInASharedFolderAreFollowed) {
 
 TEST_F(FileTest, TheOwnerStaysWherePermitted) {
     write(folder_ / "f", "old");
-    // Users without privileges may give a file to another of their groups, if they have any.
+    // Unprivileged users may give a file to another of their groups, if they have any.
     uid_t user = ::geteuid();
     gid_t group = ::getegid();
     std::array<gid_t, 256> groups{};

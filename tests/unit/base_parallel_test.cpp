@@ -47,7 +47,7 @@ TEST(WorkerCount, IsTheNumberOfCoresUnlessChosen) {
     EXPECT_EQ(workerCount(), cores);
 }
 
-/// Threads that a loop of so many chunks runs on.
+/// The number of threads that run a loop of this many chunks.
 unsigned threadsThatWork(std::size_t chunks) {
     std::mutex mutex;
     std::set<std::thread::id> threads;
@@ -68,7 +68,7 @@ TEST(ParallelFor, UsesTheThreadsThatWereChosen) {
 }
 
 TEST(ParallelFor, DoesWithFewerThreadsThanWereChosen) {
-    // A few stacks fit into the address space that is left, but not sixteen.
+    // The remaining address space holds a few stacks, but not sixteen.
     limitWorkers(16);
     std::atomic<int> sum{0};
     {

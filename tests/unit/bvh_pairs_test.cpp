@@ -17,7 +17,7 @@ std::vector<TrianglePair> pairAll(const Geometry& geometry) {
     return pairTriangles(geometry, allTriangles(geometry));
 }
 
-/// Of squares of a plane cut in two.
+/// A plane of squares, each cut into two triangles.
 Geometry grid(std::uint32_t squares) {
     Geometry geometry;
     for (std::uint32_t y = 0; y <= squares; ++y) {
@@ -40,7 +40,7 @@ TEST(Pairs, AreTheHalvesOfSquares) {
     ASSERT_EQ(pairs.size(), 400u);
     for (std::uint32_t i = 0; i < 400; ++i)
         EXPECT_EQ(pairs[i], (TrianglePair{2 * i, 2 * i + 1}));
-    // In whatever order they come, and wherever their corners begin.
+    // The same for any order of triangles and any first corner.
     std::mt19937 engine(3);
     std::shuffle(geometry.triangles.begin(), geometry.triangles.end(), engine);
     for (std::size_t i = 0; i < geometry.triangles.size(); i += 3) {
@@ -104,10 +104,10 @@ TEST(Pairs, OfAClosedMeshAreNearlyAll) {
 TEST(Pairs, AreNotMadeWhereTwoBoxesAreSmallerThanOne) {
     Geometry geometry;
     geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    // At a right angle, of boxes without volume.
+    // Two triangles at a right angle, whose boxes have no volume.
     geometry.triangles = {{0, 1, 2}, {1, 0, 3}};
     EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0}, TrianglePair{1}));
-    // In one plane.
+    // Both in one plane.
     geometry.positions[3] = {1, -1, 0};
     EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0, 1}));
 }
@@ -118,7 +118,7 @@ TEST(Pairs, RunAlongTheirEdgeInOppositeDirections) {
     geometry.triangles = {{0, 1, 2}, {0, 1, 3}};
     EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0}, TrianglePair{1}));
     EXPECT_FALSE(cornersOf(geometry, {0, 1}).has_value());
-    // An edge with three triangles: two are a pair.
+    // Of three triangles at an edge, two are a pair.
     geometry.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 2}};
     EXPECT_THAT(pairAll(geometry), ElementsAre(TrianglePair{0, 1}, TrianglePair{2}));
     expectCorners(geometry, pairAll(geometry));

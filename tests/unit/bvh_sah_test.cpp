@@ -19,8 +19,8 @@ namespace {
 
 using Refs = std::vector<PrimitiveRef>;
 
-/// The slow way to a tree by the surface-area heuristic: every split between two centres along every axis is
-/// tried (MacDonald, Booth, "Heuristics for ray tracing using space subdivision", 1990).
+/// Exhaustive builder with the surface-area heuristic: tries every split between two centres along every axis
+/// (MacDonald, Booth, "Heuristics for ray tracing using space subdivision", 1990).
 class FullSweep {
   public:
     explicit FullSweep(Refs refs) : refs_(std::move(refs)) {
@@ -39,7 +39,7 @@ class FullSweep {
         });
     }
 
-    /// The best number of primitives for the left side, and what it costs.
+    /// The best number of primitives for the left side, and its cost.
     std::pair<std::size_t, double> bestSplit(std::size_t begin, std::size_t end) const {
         const std::size_t count = end - begin;
         std::vector<double> rightCost(count);
@@ -85,8 +85,8 @@ class FullSweep {
     BinaryBvh bvh_;
 };
 
-/// Expected node visits and pair tests of a random ray that meets the root, in units of a visit, where
-/// subtrees become leaves wherever that is cheaper.
+/// Expected node visits and pair tests of a random ray that meets the root, in units of a visit, if subtrees
+/// become leaves wherever that is cheaper.
 double sahCost(const BinaryBvh& bvh) {
     const auto area = [&](std::uint32_t node) {
         return static_cast<double>(bvh.nodes[node].bounds.halfArea());
@@ -101,7 +101,7 @@ double sahCost(const BinaryBvh& bvh) {
     return below(0) / area(0);
 }
 
-/// What the tree of a scene is built over.
+/// The primitives over which a scene's tree is built.
 Refs refsOf(const Geometry& geometry) {
     return boxesOf(geometry, pairTriangles(geometry, allTriangles(geometry)));
 }
@@ -113,7 +113,7 @@ Refs trianglesOf(const Geometry& geometry) {
     return boxesOf(geometry, singles);
 }
 
-/// Triangles at random points of a cube; `edges` makes two edges out of two such points.
+/// Triangles at random points of a cube; `edges` makes two edges from two random points.
 template <typename Edges>
 Refs soup(int count, Edges&& edges) {
     std::mt19937 engine(11);
@@ -131,7 +131,7 @@ Refs soup(int count, Edges&& edges) {
 }
 
 struct Ratios {
-    double binary, wide;  ///< of the trees' costs to those of a full sweep's; `wide`: what is traversed
+    double binary, wide;  ///< costs relative to a full sweep's; `wide`: the tree that is traversed
 };
 
 Ratios ratiosToFullSweep(const Refs& refs) {
@@ -191,7 +191,7 @@ TEST(SahCost, OfTrianglesOfVeryDifferentSizesIsWithin5PercentOfAFullSweep) {
     }));
 }
 
-/// The device only tests pairs, so testing a single triangle costs as much as testing a pair.
+/// The device only tests pairs, so a single triangle costs as much as a pair.
 TEST(SahCost, OfPairsIsLowerThanOfTriangles) {
     const TemporaryFolder folder;
     writeTwoSpheres(folder.path(), 20'000);

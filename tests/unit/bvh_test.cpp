@@ -60,7 +60,7 @@ TEST(WideBvh, OfCoincidentTriangles) {
     EXPECT_THAT(auditAll(buildWideBvh(geometry), geometry), IsEmpty());
 }
 
-/// Sizes that grow geometrically make SAH splits peel off one triangle after the other.
+/// With geometrically growing sizes, each SAH split separates a single triangle.
 TEST(WideBvh, OfGeometricallyGrowingTrianglesStaysWithinTheDepthLimit) {
     Geometry geometry;
     for (int i = 0; i < 250; ++i) {
@@ -84,7 +84,7 @@ TEST(WideBvh, DoesNotDependOnHowThreadsInterleave) {
 }
 
 TEST(WideBvh, SahIsBetterThanMedianSplits) {
-    // Clusters of very different density: where splits are put matters.
+    // Clusters of very different density, for which the position of splits matters.
     Geometry geometry = randomTriangles(20000, 0.5f);
     for (std::size_t i = 0; i < 30000; ++i)
         geometry.positions[i] *= 0.01f;

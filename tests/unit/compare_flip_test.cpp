@@ -94,7 +94,7 @@ TEST(Flip, MovesWithTheContentAndTurnsWithTheImage) {
     }
 }
 
-/// The paper's formulas one by one, for one pixel, with full two-dimensional filters.
+/// The paper's formulas, evaluated one by one for a single pixel with full two-dimensional filters.
 class DirectFlip {
   public:
     DirectFlip(const Image& a, const Image& b, int width, int height)
@@ -192,14 +192,14 @@ TEST(Flip, AgreesWithADirectEvaluation) {
     constexpr int kHeight = 15;
     Image a = noise(kWidth, kHeight, 4);
     Image b = noise(kWidth, kHeight, 5);
-    for (std::size_t i = 0; i < a.size(); ++i) {  // an edge and a plain part, too
+    for (std::size_t i = 0; i < a.size(); ++i) {  // with an edge and a plain part
         if (i % kWidth < 8) a[i] = {0.8f, 0.7f, 0.1f};
         if (i % kWidth < 4) b[i] = {0.2f, 0.3f, 0.9f};
     }
     const std::vector<float> map = flip(a, b, kWidth, kHeight);
     const DirectFlip direct(a, b, kWidth, kHeight);
     for (const auto& [x, y] : {std::pair(0, 0), {22, 14}, {4, 7}, {8, 3}, {12, 12}, {6, 0}, {1, 9}}) {
-        // The matrices of the direct one are rounded to four digits.
+        // The direct evaluation uses matrices rounded to four digits.
         EXPECT_NEAR(map[static_cast<std::size_t>(y * kWidth + x)], direct.at(x, y), 2e-3) << x << " " << y;
     }
 }

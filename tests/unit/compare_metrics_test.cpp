@@ -57,7 +57,7 @@ TEST(Compare, EqualImages) {
 }
 
 TEST(Compare, DisplayedValuesAreExposedClampedAndEncoded) {
-    // Radiance 2 and 1, displayed alike; the linear metrics see the difference.
+    // Radiance 2 and 1 are displayed alike; the linear metrics see the difference.
     const Comparison bright = compare(image(1, {glm::vec3(2.0f)}), image(1, {glm::vec3(1.0f)}), {});
     EXPECT_EQ(bright.epsMax, 0.0);
     EXPECT_EQ(bright.rmse, 1.0);
@@ -65,7 +65,7 @@ TEST(Compare, DisplayedValuesAreExposedClampedAndEncoded) {
     const auto code = [](std::uint8_t value) { return image(1, {glm::vec3(fromSrgb8(value))}); };
     const Comparison codes = compare(code(128), code(129), {});
     EXPECT_NEAR(codes.epsMean, 1.0 / 255, 1e-7);
-    // A stop of exposure doubles what a linear display shows.
+    // A stop of exposure doubles the displayed value of a linear display.
     CompareOptions options;
     options.transfer = Transfer::kLinear;
     options.exposure = 1.0f;

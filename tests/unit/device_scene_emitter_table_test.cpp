@@ -62,7 +62,7 @@ TEST(EmitterTable, VisibleEmissionCountsWhereItCanReachSurfaces) {
     EXPECT_FLOAT_EQ(table.records[1].density, 36.0f / 76.5f);
 }
 
-// What emits only visible light is recorded, because the camera sees it, but not sampled.
+// Emitters of visible light alone are recorded, because the camera sees them, but not sampled.
 TEST(EmitterTable, VisibleEmissionAloneGivesNothingToChooseFrom) {
     LoadedScene scene = twoEmitters();
     for (Material& material : scene.materials)

@@ -9,7 +9,7 @@
 namespace duolux {
 namespace {
 
-/// Quadrilaterals and triangles, turned and moved so that nothing is along an axis.
+/// Quadrilaterals and triangles, rotated and moved so that nothing is axis-parallel.
 class CoincidentGroups : public testing::Test {
   protected:
     std::uint32_t triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -20,7 +20,7 @@ class CoincidentGroups : public testing::Test {
         scene_.geometry.materials.push_back(material_);
         return static_cast<std::uint32_t>(scene_.geometry.triangles.size()) - 1;
     }
-    /// Two triangles, in the plane z = height; from above it is the front unless it is turned.
+    /// A square of two triangles in the plane z = height that faces up, or down if `turned`.
     std::uint32_t quad(double x, double y, double width, double height, bool turned = false) {
         const glm::dvec3 a(x, y, height), b(x + width, y, height), c(x + width, y + width, height),
             d(x, y + width, height);
@@ -64,7 +64,7 @@ TEST_F(CoincidentGroups, CopiesOfBothWindingsAndSizes) {
     }
 }
 
-// A decal, which shares no corner with the wall, and overlaps both of its triangles.
+// A decal that shares no corner with the wall and overlaps both of its triangles.
 TEST_F(CoincidentGroups, ADecalHasThePlaneOfTheWall) {
     const std::uint32_t wall = quad(0.0, 0.0, 10.0, 0.0);
     const std::uint32_t decal = quad(4.3, 4.8, 1.0, 0.0);
@@ -77,7 +77,7 @@ TEST_F(CoincidentGroups, ADecalHasThePlaneOfTheWall) {
     EXPECT_EQ(found[4], 4u);
 }
 
-// A wall of many tiles with one decal; and a whole wall that is there twice.
+// A wall of many tiles with one decal; and a whole wall that exists twice.
 TEST_F(CoincidentGroups, AmongManyTilesOfOnePlane) {
     for (int i = 0; i < 100; ++i) {
         for (int k = 0; k < 100; ++k)
@@ -101,7 +101,7 @@ TEST_F(CoincidentGroups, AmongManyTilesOfOnePlane) {
         EXPECT_EQ(twice[i], twice[20002 + i]) << i;
 }
 
-// Planes on the border of two cells of a grid, which rounding puts in one or the other.
+// Planes on the border between two cells of a grid, which rounding puts in one or the other.
 TEST_F(CoincidentGroups, WhereRoundingPartsPlanes) {
     for (int cell = 100; cell < 900; cell += 20) {
         const double x = (cell + 0.75) / 4096.0, rest = std::sqrt(1.0 - x * x);

@@ -47,7 +47,7 @@ TEST(Transport, PartialTransmissionIsGeneral) {
 TEST(Transport, LightOnItsWayToTheCameraHasBothComponents) {
     for (const Preset& preset : presets())
         EXPECT_EQ(traitsOf(preset.name).cameraTransmittance, traitsOf(preset.name).transmittance);
-    // Invisible light that is made visible by a crossing is lost on surfaces, but not on the camera.
+    // Invisible light that a crossing makes visible is lost on surfaces, but reaches the camera.
     Reflectance glowing = *presetReflectance("local");
     glowing.transparent.m10 = {0.0f, 0.0f, 0.5f};
     EXPECT_EQ(analyseTransport(sceneWith(glowing)).transmittance, shared::kTransmittanceIdentity);
@@ -88,7 +88,7 @@ TEST(Transport, SecondColumn) {
     Reflectance reflectance = *presetReflectance("global");
     reflectance.opaque.m01 = {0.0f, 0.1f, 0.0f};
     EXPECT_TRUE(analyseTransport(sceneWith(reflectance)).secondColumn);
-    // Identity transmittance of the invisible component is not enough then.
+    // Then the identity on the invisible component alone is not enough.
     reflectance.transparent.m00 = glm::vec3(1.0f);
     EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transmittance, shared::kTransmittanceGeneral);
 }
@@ -101,7 +101,7 @@ TEST(Transport, ScatteringsFollowTheComponents) {
     EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, 1u);
     reflectance.opaque.m01 = glm::vec3(1.0f);
     EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, TransportTraits::kUnlimited);
-    // A crossing that turns invisible importance into visible closes the cycle, too.
+    // A crossing that turns invisible importance into visible importance also closes the cycle.
     reflectance.opaque.m01 = glm::vec3(0.0f);
     reflectance.transparent.m01 = glm::vec3(0.5f);
     EXPECT_EQ(analyseTransport(sceneWith(reflectance)).mostScatterings, TransportTraits::kUnlimited);

@@ -70,7 +70,7 @@ TEST(Tuning, WhatIsAskedForTakesTheFirstPlace) {
             EXPECT_EQ(chooseTuning(deviceOf(kind), {.layout = layout, .kernel = {}}).layout, layout);
         const Tuning plain = chooseTuning(deviceOf(kind), {.layout = {}, .kernel = KernelKind::kPlain});
         EXPECT_EQ(plain.kernel, KernelKind::kPlain);
-        // No vote of a subgroup ends in fewer than 0 lanes.
+        // At a threshold of 0 lanes, no vote ends a loop.
         EXPECT_EQ(plain.leaveTraversal, 0u);
         EXPECT_EQ(plain.leaveNodes, 0u);
     }
@@ -102,7 +102,7 @@ TEST(Tuning, AnotherLayoutTakesWhatDoesNotFitUnlessOneIsAskedFor) {
     EXPECT_EQ(fitted(Layout::kStorage, 128 * kMebibyte), Layout::kStorage);
     EXPECT_EQ(fitted(Layout::kStorage, 128 * kMebibyte + 1), Layout::kTexel);
     EXPECT_EQ(fitted(Layout::kTexel, 1024 * kMebibyte), Layout::kTexel);
-    EXPECT_EQ(fitted(Layout::kStorage, 1024 * kMebibyte + 1), Layout::kStorage);  // uploading tells
+    EXPECT_EQ(fitted(Layout::kStorage, 1024 * kMebibyte + 1), Layout::kStorage);  // the upload fails
     EXPECT_EQ(fitted(Layout::kRayQuery, 1024 * kMebibyte + 1), Layout::kRayQuery);
     EXPECT_EQ(asked(Layout::kStorage, 128 * kMebibyte), Layout::kStorage);
     EXPECT_EQ(messageOf([&] { asked(Layout::kStorage, 128 * kMebibyte + 16); }),

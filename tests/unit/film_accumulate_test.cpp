@@ -72,13 +72,13 @@ TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
     film.countLightPaths(8);
     EXPECT_EQ(film.lightPaths(), 8u);
     EXPECT_EQ(film.totalSamples(), 0u);
-    // 8 paths are 4 for each of the two pixels.
+    // 8 paths are 4 per pixel.
     const RadianceImage image = film.resolve();
     EXPECT_EQ(image.invisible[0], glm::vec3(1.0f, 0.0f, 0.5f));
     EXPECT_EQ(image.visible[0], glm::vec3(2.0f, 0.25f, 0.0f));
     EXPECT_EQ(image.visible[1], glm::vec3(0.75f, 0.0f, 0.0f));
 
-    // With samples of the pixels both are means of their own, and add up.
+    // Pixel samples and light paths have separate means, which are added.
     const std::uint32_t both[] = {0, 1};
     const Film::PixelSum gathered[] = {{{2, 0, 0}, {4, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
     film.add(both, gathered, 2);
@@ -91,7 +91,7 @@ TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
     EXPECT_EQ(twice.totalSamples(), 8u);
     EXPECT_EQ(twice.resolve().visible, film.resolve().visible);
 
-    // Sums that passed the sign on the device.
+    // A sum whose sign changed on the device.
     Film passed(2, 1, 0.5f);
     const Film::PixelSum beyond[] = {{{0, 0, 0}, {0, kMin, 0}}, {{0, 0, 0}, {0, 1, 0}}};
     passed.addLight(0, beyond);
@@ -113,7 +113,7 @@ TEST(Film, HoldsSumsBeyond64Bits) {
     EXPECT_FLOAT_EQ(image.invisible[0].y, 5.0f / 32.0f * 0x1p-30f);
     EXPECT_FALSE(film.overflowed());
 
-    // Two halves, and the other way round.
+    // Two halves give the same; then everything is subtracted again.
     Film half(1, 1, 0x1p-30f);
     for (int i = 0; i < 500; ++i)
         half.add(pixel, most, 32);
@@ -136,7 +136,7 @@ TEST(Film, HoldsSumsBeyond64Bits) {
     EXPECT_FLOAT_EQ(light.resolve().visible[0].x, 0x1p27f);
 }
 
-// 2^58 quanta, gathered or shot, whatever the number of samples.
+// The limit is 2^58 quanta with either integrator, for any number of samples.
 TEST(Film, ClampsAtTheLargestRadianceAndTells) {
     const std::uint32_t pixel[] = {0};
     constexpr std::int64_t kLargest = std::int64_t{1} << 58;
@@ -210,7 +210,7 @@ TEST(Film, IsTheSameBitsInWhateverOrderPartsAreAdded) {
     for (const auto& part : parts)
         forward.add(pixels, part, 3);
 
-    // Another order of parts and of pixels, and every part in two pieces.
+    // A different order of parts and of pixels, with every part in two pieces.
     Film shuffled(kPixels, 1, 0x1p-20f);
     std::ranges::shuffle(parts, random);
     for (const auto& part : parts) {

@@ -124,7 +124,7 @@ TEST(Exr, HoldsTheDisplayedValuesAndMetadata) {
 
 TEST(Exr, ReadsForeignFilesAsVisible) {
     const TemporaryFolder folder;
-    // Half floats, and a data window that does not begin at the origin.
+    // Half floats, and a data window that does not start at the origin.
     const Imath::Box2i window({-2, 3}, {1, 4});
     Imf::Header header(window, window);
     std::vector<Imath::half> values(8);

@@ -1,4 +1,4 @@
-// The optional layers of a film: their sums, and how they arrive in EXR files.
+// The optional layers of a film: their sums, and their channels in EXR files.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -64,7 +64,7 @@ TEST(FilmLayers, TakeNoMemoryUnlessAskedFor) {
     EXPECT_EQ(Film(8, 8, 1.0f, kLayerNormal).layerSums().size(), 8u * 8u * 3u);
 }
 
-// The largest sums that there can be: of 2^32 samples.
+// The largest possible sums, of 2^32 samples.
 TEST(FilmLayers, HoldTheSumsOfAnyNumberOfSamples) {
     for (const FilmLayer& layer : kFilmLayers) {
         const double largest = std::max(std::abs(static_cast<double>(layer.lowest)),
@@ -94,8 +94,8 @@ TEST(FilmLayers, AddUpExactlyWhateverTheQuantaOfRadiance) {
     EXPECT_EQ(whole.resolve(kLayerNormal), sum.resolve(kLayerNormal));
 }
 
-// As any program reads them by OpenEXR's own library, in rows that are no multiple of what is written at a
-// time.
+// Reads them with OpenEXR's own library, with a number of rows that is not a multiple of the rows written at
+// once.
 TEST(FilmLayers, AreChannelsOfAnExr) {
     constexpr int kWidth = 7, kHeight = 37;
     const TemporaryFolder folder;
@@ -139,7 +139,7 @@ TEST(FilmLayers, AreChannelsOfAnExr) {
     const RadianceImage back = readImage(folder / "a.exr");
     EXPECT_TRUE(test::sameBits(back.visible, image.visible));
     EXPECT_TRUE(test::sameBits(back.invisible, image.invisible));
-    // Other formats are as without layers.
+    // Other formats do not change.
     writeImage(folder / "b.png", image, {});
     writeImage(folder / "b.pfm", image, {});
     EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "b.png"));

@@ -1,4 +1,4 @@
-// For all contents of an image file, reading either succeeds or throws InputError with one line that names
+// For any contents of an image file, reading either succeeds or throws InputError with one line that names
 // the file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ TEST(MalformedPfm, TruncationTellsHowMuchIsThere) {
               "h.pfm: is truncated: 4 of 24 bytes of pixels; expected a complete image");
 }
 
-/// A chunk of a PNG file without a valid checksum; `length`: what it claims.
+/// A chunk of a PNG file without a valid checksum; `length`: the length that it claims.
 std::string pngChunk(std::uint32_t length, const std::string& type, const std::string& data) {
     std::string out;
     for (int shift = 24; shift >= 0; shift -= 8)

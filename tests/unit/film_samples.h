@@ -9,8 +9,7 @@
 
 namespace duolux::test {
 
-/// An image with values of all magnitudes, signs and exponents in both components, the same for the same
-/// size.
+/// An image with values of all magnitudes, signs and exponents in both components; depends only on the size.
 RadianceImage variedImage(std::uint32_t width, std::uint32_t height);
 
 /// An image whose visible component is one colour.

@@ -113,7 +113,7 @@ TEST_P(WriteFailure, IsNotForAPictureThatDoesNotFitIntoMemory) {
                          }};
     const TemporaryFolder folder;
     const std::filesystem::path path = folder / GetParam();
-    limitWorkers(1);  // the stacks of others would count
+    limitWorkers(1);  // the stacks of other threads would count
     {
         const test::AddressSpaceLimit limit(std::size_t{11} << 20);
         EXPECT_NO_THROW(writeImage(path, rows, {}));

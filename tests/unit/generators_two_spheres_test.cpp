@@ -12,7 +12,7 @@
 namespace duolux::test {
 namespace {
 
-/// Every edge is walked once in each direction: closed, and consistently wound.
+/// Whether every edge occurs once in each direction: closed, and consistently wound.
 template <typename Triangles>
 bool isClosed(const Triangles& triangles) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;

@@ -66,7 +66,7 @@ TEST(PointLights, ManyTilesConvergeToLambertsFormula) {
         for (const char* tiling : {"2x2", "8x8", "32x32"}) {
             const double error = std::abs(
                 irradiance(pointLights(luminaire.scene, Tiling::parse(tiling)), point, normal) / exact - 1.0);
-            EXPECT_LT(error, last / 8.0) << tiling;  // by 16 for a fourth of the tile's width
+            EXPECT_LT(error, last / 8.0) << tiling;  // a factor of 16 for a quarter of the tile width
             last = error;
         }
         EXPECT_LT(last, 3e-4);

@@ -79,7 +79,7 @@ TEST(GlJitter, JittersMeetEdgesOfAnyDirectionAtDifferentPlaces) {
             ASSERT_GE(std::min(j.x, j.y), 0.0f);
             ASSERT_LT(std::max(j.x, j.y), 1.0f);
             const float place = glm::dot(j, across);
-            places.push_back(place - std::floor(place));  // an edge comes back in every pixel
+            places.push_back(place - std::floor(place));  // relative to the pixel
         }
         std::sort(places.begin(), places.end());
         for (std::uint32_t i = 1; i < kCount; ++i) {

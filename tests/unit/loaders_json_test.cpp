@@ -19,7 +19,7 @@ class JsonTest : public SceneFiles {
         write("mesh.mtl", "newmtl white\nKd 0.5 0.6 0.7\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\n");
     }
 
-    /// A scene of the mesh and the given further keys.
+    /// A scene with the mesh and further keys.
     static std::string with(const std::string& keys) {
         return R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}])" + (keys.empty() ? "" : ", " + keys) + "}";
     }

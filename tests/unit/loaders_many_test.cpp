@@ -15,7 +15,7 @@ class ManyTest : public SceneFiles {
   protected:
     static constexpr int kMany = 20'000;
 
-    /// In tenths of a second; what looks through all others for each takes several seconds.
+    /// Takes tenths of a second. Searching all other items for each item would take several seconds.
     LoadedScene loadSoon(const std::string& name) const {
         const std::clock_t start = std::clock();
         LoadedScene scene = load(name);

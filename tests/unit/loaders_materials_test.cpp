@@ -19,7 +19,7 @@ class MaterialsTest : public SceneFiles {
   protected:
     static constexpr const char* kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-    /// Of the first triangle.
+    /// The material of the first triangle.
     const Material materialOf(const std::string& statements) const {
         const LoadedScene scene = loadObj(statements + "\n" + std::string(kTriangleObj));
         return scene.materials[scene.geometry.materials[0]];

@@ -71,7 +71,7 @@ TEST_F(NormalsTest, SmoothingGroupAveragesOverTheEdge) {
         ASSERT_EQ(normals.size(), 3u) << i;
         for (int corner = 0; corner < 3; ++corner) {
             const glm::vec3 position = geometry.positions[geometry.triangles[i][corner]];
-            // Each face takes part by its whole right angle, however its diagonal runs.
+            // Each face contributes its whole right angle, whichever diagonal cuts it.
             const glm::vec3 own = i < 2 ? glm::vec3(0, 0, 1) : glm::vec3(-1, 0, 0);
             const bool onEdge = position.x == 0.0f && position.z == 0.0f;
             EXPECT_THAT(normals[static_cast<std::size_t>(corner)],

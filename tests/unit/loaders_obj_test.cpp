@@ -13,7 +13,7 @@ using testing::StartsWith;
 
 class ObjTest : public SceneFiles {
   protected:
-    /// Without the default light, which comes last.
+    /// Removes the default light, which comes last.
     Geometry load(std::string_view text) const {
         Geometry geometry = loadObj(text).geometry;
         geometry.triangles.resize(geometry.triangles.size() - 2);
@@ -129,8 +129,8 @@ TEST_F(ObjTest, UnknownStatementsAreIgnoredWithAWarning) {
 }
 
 TEST_F(ObjTest, LargeFilesAreReadInPartsThatFitTogether) {
-    // Larger than several of the stretches that are read in parallel; relative indices, materials and
-    // smoothing groups reach across them.
+    // Larger than several parts that are read in parallel; relative indices, materials and smoothing groups
+    // extend across them.
     constexpr std::size_t kTriangles = 200'000;
     std::string text = "usemtl a\n";
     for (std::size_t i = 0; i < kTriangles; ++i) {

@@ -1,4 +1,4 @@
-// PLY files that are right.
+// Valid PLY files.
 #include <fmt/format.h>
 
 #include <array>
@@ -40,7 +40,7 @@ TEST_F(PlyTest, IsAMeshOfAJsonScene) {
 }
 
 TEST_F(PlyTest, PolygonsAreTriangulated) {
-    // An L of six corners, of area 3, and a square.
+    // An L with six corners and area 3, and a square.
     const Geometry geometry =
         mesh(ascii(6, "0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n", 2, "6 0 1 2 3 4 5\n4 0 1 3 5\n"))
             .geometry;

@@ -32,7 +32,7 @@ double doubleArea(const Polygon& p) {
     return sum;
 }
 
-/// n - 2 triangles that all face along +z and whose areas add up to the polygon's: then they tile it.
+/// Expects n - 2 triangles that face +z and whose areas add up to the polygon's, so that they tile it.
 void expectTiling(const Polygon& polygon) {
     std::vector<Triangle> triangles;
     triangulate(polygon, triangles);
@@ -140,7 +140,7 @@ TEST(Triangulate, RandomStarShapedPolygons) {
     }
 }
 
-/// Ear clipping as it is defined, in cubic time.
+/// Ear clipping by its definition, in cubic time.
 std::vector<Triangle> clipByDefinition(const std::vector<glm::dvec2>& points) {
     std::vector<std::uint32_t> ring(points.size());
     std::iota(ring.begin(), ring.end(), 0u);
@@ -186,12 +186,12 @@ std::vector<Triangle> clipByDefinition(const std::vector<glm::dvec2>& points) {
 TEST(Triangulate, ClipsEarsAsDefined) {
     std::mt19937 random(11);
     for (int round = 0; round < 600; ++round) {
-        // Points of a coarse grid: many on one line, many the same, and polygons that cross themselves.
+        // Points of a coarse grid: many are collinear or identical, and polygons cross themselves.
         std::uniform_int_distribution<int> coordinate(0, round % 2 == 0 ? 5 : 1000);
         std::vector<glm::dvec2> points(static_cast<std::size_t>(5 + round % 40));
         for (glm::dvec2& point : points)
             point = glm::dvec2(coordinate(random), coordinate(random));
-        // Slanting lines of points, without rounding.
+        // Slanted lines of points, without rounding.
         if (round % 3 == 0) {
             for (glm::dvec2& point : points)
                 point = {13 * point.x + point.y, 7 * point.x - 2 * point.y};
@@ -202,7 +202,7 @@ TEST(Triangulate, ClipsEarsAsDefined) {
     }
 }
 
-/// Seconds of CPU time for a polygon of very many corners; n - 2 triangles come out.
+/// Seconds of CPU time for a polygon with very many corners; checks that it gives n - 2 triangles.
 double secondsFor(const Polygon& polygon) {
     std::vector<Triangle> triangles;
     const std::clock_t start = std::clock();
@@ -214,7 +214,7 @@ double secondsFor(const Polygon& polygon) {
 
 TEST(Triangulate, TimeGrowsWithTheCorners) {
     constexpr int kCorners = 50'000;
-    constexpr double kMost = 5.0;  // a tenth of a second, where the square of the corners takes half a minute
+    constexpr double kMost = 5.0;  // takes 0.1 s; quadratic time would be half a minute
     Polygon wave, comb, spiral, tangle;
     std::mt19937 random(3);
     std::uniform_real_distribution<float> anywhere(0.0f, 1.0f);
@@ -239,7 +239,7 @@ TEST(Triangulate, TimeGrowsWithTheCorners) {
 
 TEST(Triangulate, LinesAcrossTheAxesTakeNoLonger) {
     constexpr int kCorners = 100'000;
-    constexpr double kMost = 3.0;  // some tenths of a second, where boxes along the axes take 10 to 50
+    constexpr double kMost = 3.0;  // takes tenths of a second; axis-parallel boxes take 10 to 50 s
     std::vector<glm::dvec2> zigzag, curve, slope;
     for (int i = 0; i < kCorners; ++i) {
         const double e = i % 2 == 1 ? 0.001 : 0.0, bend = i - kCorners / 2;
@@ -281,7 +281,7 @@ TEST(Triangulate, LongStripsTakeNoLonger) {
             const std::clock_t start = std::clock();
             clipEars(strip, triangles);
             EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.0)
-                << "where boxes hold both sides of the strip it takes 10 to 30: " << ripple << ' ' << angle;
+                << "10 to 30 s if boxes hold both sides of the strip: " << ripple << ' ' << angle;
             double area = 0.0;
             for (const auto& [a, b, c] : triangles)
                 area += turnAt(strip[a], strip[b], strip[c]);
@@ -294,7 +294,7 @@ TEST(Triangulate, CornersAtTheSamePlacesTakeNoLonger) {
     Polygon polygon;
     for (int i = 0; i < 100'000; ++i)
         polygon.emplace_back(i % 3 == 0, i % 3 == 1, 0);
-    EXPECT_LT(secondsFor(polygon), 3.0) << "one by one they take half a minute";
+    EXPECT_LT(secondsFor(polygon), 3.0) << "half a minute if tested one by one";
 }
 
 TEST(Triangulate, CollinearCornersAndHolesByABridge) {

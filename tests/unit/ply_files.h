@@ -1,6 +1,6 @@
 #pragma once
 
-// PLY files for tests. The bytes are written one by one, by shifts, not by the loader's own functions.
+// PLY files for tests. The bytes are written one by one with shifts, not with the loader's own functions.
 #include <fmt/format.h>
 
 #include <bit>
@@ -57,7 +57,7 @@ inline const std::string kThree = "0 0 0\n1 0 0\n0 1 0\n";
 
 class PlyTest : public SceneFiles {
   protected:
-    /// As it is in the file: triangles without area included.
+    /// The mesh as it is in the file, including triangles without area.
     Mesh mesh(const std::string& text, Reading reading = Reading::kLenient) const {
         MaterialFiles files(reading);
         return loadPly(write("mesh.ply", text), files);

@@ -49,7 +49,7 @@ TEST(FilmQuantum, FollowsThePictureAndNotItsEmitters) {
     }
 }
 
-// Up to 2^38 times the mean, the brightest emission can be held, though the first look may miss it.
+// The film holds the brightest emission up to 2^38 times the mean, even if the first look misses it.
 TEST(FilmQuantum, LeavesRoomForTheBrightestEmission) {
     for (const double brightest : {1.0, 1e6, 1e9, 1e11}) {
         Picture picture{1.0, 1.0};

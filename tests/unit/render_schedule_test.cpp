@@ -57,7 +57,7 @@ TEST(Schedule, RunsTakeAboutTheTimeOfADispatch) {
     const WorkRange range = *schedule.next(2e-6, 128, Wanted::kAll);
     EXPECT_EQ(range.samples, 16u);
     EXPECT_NEAR(static_cast<double>(range.size()) * 2e-6, kDispatchSeconds, 0.05 * kDispatchSeconds);
-    // Where one sample is slow, few are taken of few pixels.
+    // If a sample is slow, a range has few samples of few pixels.
     Schedule slow(1000, 0, 100, 1000, 16);
     while (slow.next(1e-3, 128, Wanted::kAll)->firstSample == 0) {
     }
@@ -147,7 +147,7 @@ TEST(Schedule, GoesOnFromAnyState) {
     uneven[299] = kEnd - kFirst;
     resumed(uneven);
 
-    // Fewer samples than some pixels have had are not exceeded by the others.
+    // With a limit below the samples that some pixels already have, the other pixels do not exceed the limit.
     Schedule fewer(300, kFirst, kFirst + 9, 100, 16);
     fewer.resume(uneven);
     Counts some;
@@ -157,7 +157,7 @@ TEST(Schedule, GoesOnFromAnyState) {
     for (const auto& [work, times] : some)
         EXPECT_TRUE(work.second < kFirst + 9 && times == 1);
 
-    // When the time is up, pixels without a sample get one sample only.
+    // When the time is up, pixels without a sample get only one.
     Schedule schedule(300, kFirst, kEnd, 100, 16);
     schedule.resume(uneven);
     Counts counts;

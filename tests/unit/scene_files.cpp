@@ -7,7 +7,7 @@
 #include "host/base/error.h"
 #include "host/view/load.h"
 
-/// Lets failures of vector comparisons be read.
+/// Makes failures of vector comparisons readable.
 namespace glm {
 void PrintTo(const vec3& v, std::ostream* out) {
     *out << "(" << v.x << ", " << v.y << ", " << v.z << ")";

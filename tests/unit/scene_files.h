@@ -35,7 +35,7 @@ class SceneFiles : public testing::Test {
 /// One triangle with vertices 1, 2, 3 and a luminaire, so that nothing is added by default.
 extern const std::string_view kTriangleObj;
 
-/// Area vector: along the front's normal, as long as the area.
+/// Area vector: in the direction of the front's normal, as long as the area.
 glm::vec3 areaVector(const Geometry& geometry, std::size_t triangle);
 float totalArea(const Geometry& geometry);
 

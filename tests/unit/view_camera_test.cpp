@@ -101,7 +101,7 @@ TEST(ViewCamera, NothingFlatIsSeenEdgeOn) {
     }
 }
 
-/// With a lamp in it that lights it.
+/// The open box with a lamp in it.
 LoadedScene litBox(const glm::vec3& opening, bool inward) {
     SceneBuilder builder;
     builder.scene = openBox(opening, inward);
@@ -158,7 +158,7 @@ TEST(ViewCamera, AFewTrianglesFarAwayAreLeftOut) {
         EXPECT_LT(glm::distance(camera.position, alone.position), 0.01f) << distance;
         EXPECT_LT(glm::distance(camera.target, alone.target), 0.01f) << distance;
     }
-    // What is not far away in proportion, and parts that are as large as the rest, are shown.
+    // Shows triangles that are not relatively far away, and parts that are as large as the rest.
     SceneBuilder near;
     near.scene = box;
     near.triangle({4, 0, 0}, {5, 0, 0}, {4, 1, 0}, 0);

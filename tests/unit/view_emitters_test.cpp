@@ -68,7 +68,7 @@ TEST(ViewEmitters, ThoseWhoseBackSidesAreInViewAreNamed) {
                 ElementsAre(HasSubstr("show the camera only their back sides")));
     camera.position = {1.9f, 1.8f, 1.9f};
     EXPECT_THAT(warningsOf(builder.scene, camera), IsEmpty());
-    // One from below, another from above.
+    // One is seen from below, another from above.
     addLamp(builder, {0, 0.6f, 0}, false);
     std::vector<std::uint32_t>& materials = builder.scene.geometry.materials;
     materials[14] = materials[15] = materials[12];

@@ -8,7 +8,7 @@
 
 namespace duolux::test {
 
-/// The camera that is chosen for a scene, all of which it should show.
+/// The camera that is chosen for a scene; it should show the whole scene.
 inline Camera framed(const LoadedScene& scene, const CameraChoice& choice = {},
                      glm::uvec2 size = {512, 512}) {
     const Surface surface(scene, scene.geometry.triangles.size());
@@ -24,11 +24,11 @@ inline LoadedScene boxScene(const glm::vec3& lower, const glm::vec3& upper,
     return builder.scene;
 }
 
-/// Horizontal.
+/// Horizontal directions.
 inline constexpr std::array<glm::vec3, 4> kOpenings{
     {{1.0f, 0.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}}};
 
-/// From -1 to 1, without the side that `opening` points to.
+/// A box from -1 to 1, without the side in the direction of `opening`.
 inline LoadedScene openBox(const glm::vec3& opening, bool inward) {
     LoadedScene scene = boxScene(glm::vec3(-1), glm::vec3(1), inward ? Facing::kInward : Facing::kOutward);
     Geometry& geometry = scene.geometry;

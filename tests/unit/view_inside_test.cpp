@@ -91,7 +91,7 @@ TEST(ViewInside, WallsMayBeThickerThanTheRoomIsHigh) {
 
 TEST(ViewInside, SolidsAreSeenFromOutside) {
     EXPECT_FALSE(isInside(framed(boxScene({-1, -1, -1}, {1, 1, 1})).position, glm::vec3(1)));
-    // A lamp outside of a closed body does not light it from within.
+    // A lamp outside a closed body does not light its inside.
     LoadedScene scene = boxScene({-1, -1, -1}, {1, 1, 1});
     SceneBuilder builder;
     builder.scene = scene;

@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 class LightTest : public SceneFiles {
   protected:
-    /// The two triangles that were added come last.
+    /// The two added triangles come last.
     static void expectDefaultLight(const LoadedScene& scene) {
         const Geometry& geometry = scene.geometry;
         const std::size_t first = geometry.triangles.size() - 2;
@@ -31,8 +31,8 @@ class LightTest : public SceneFiles {
         }
     }
 
-    /// Of a small patch in the middle of the view, as far as the middle of the scene, that faces the light,
-    /// by subdividing the light.
+    /// Radiance of a small white patch in the middle of the view, as far away as the middle of the scene,
+    /// that faces the light. Subdivides the light.
     static float radianceOfWhite(const LoadedScene& scene) {
         const Geometry& geometry = scene.geometry;
         Geometry seen = geometry;
@@ -104,7 +104,7 @@ TEST_F(LightTest, IsNotAddedWhereNoSurfaceScatters) {
     EXPECT_THAT(textsOf(dark.warnings),
                 testing::ElementsAre("all surfaces are black: they neither reflect nor emit "
                                      "light: the picture will be black"));
-    // Surfaces that only pass light on, before a dim emitter that is seen as it is.
+    // Surfaces that only transmit light, in front of a dim emitter that is seen unchanged.
     write("mesh.obj", "mtllib m.mtl\nusemtl dim\n" + std::string(kTriangleObj) + "usemtl grey\nf 1 3 2\n");
     const LoadedScene seen = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "reflectance":
         {"opaque": [[0, 0], [0, 0]], "transparent": [[1, 0], [0, 1]]}})");

@@ -72,7 +72,7 @@ TEST(ViewSurface, ManyTrianglesBecomeFewerWithoutHoles) {
     }
 }
 
-/// In a closed sphere of albedo a that emits E everywhere, onto its inside, white shows E (1 + a + a^2 ...).
+/// Inside a closed sphere of albedo a that emits E everywhere, a white surface shows E (1 + a + a^2 ...).
 TEST(ViewSurface, IlluminationIsThatOfAFurnace) {
     SceneBuilder builder;
     Material material;
