@@ -3,7 +3,7 @@
 #   duolux_shader(TARGET NAME SOURCE [DEFINES A=1 B])
 #
 # adds `extern const std::span<const std::uint32_t> NAME` (namespace duolux::spirv) to the library TARGET.
-# glslang's dependency file makes a change of any included header rebuild what includes it.
+# Through glslang's dependency file, a changed header rebuilds the kernels that include it.
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 find_program(SPIRV_VAL NAMES spirv-val REQUIRED)
 

@@ -1,9 +1,9 @@
-# Embeds files into a library as they are, by the assembler.
+# Embeds files unchanged into a library, with the assembler.
 #
 #   duolux_embed_files(TARGET HEADER FILE...)
 #
-# makes HEADER declare duolux::embeddedFiles(): folder and name (the last two parts of the path) and bytes of each FILE,
-# which is relative to the root.
+# generates HEADER, which declares duolux::embeddedFiles(): folder and name (the last two parts of the path) and bytes
+# of each FILE. Paths are relative to the root.
 function(duolux_embed_files target header)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded/${target}_files.cpp)
   set(assembly "")

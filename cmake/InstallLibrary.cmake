@@ -1,9 +1,10 @@
-# The library as a package: `find_package(duolux)` brings the target duolux::duolux, and <duolux.h> with what it includes.
+# Installs the library as a package: `find_package(duolux)` provides the target duolux::duolux, <duolux.h> and the headers
+# that it includes.
 set(DUOLUX_INCLUDES ${CMAKE_INSTALL_INCLUDEDIR}/duolux)
 set(DUOLUX_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/duolux)
 
-# duolux_install_library(FOLDER...): the libraries of these folders of host/, those of the shaders, and their headers.
-# Headers that include Vulkan's are internal.
+# duolux_install_library(FOLDER...): installs the libraries of these folders of host/ and of the shaders, and their headers,
+# except internal ones, which include Vulkan's.
 function(duolux_install_library)
   add_library(duolux_all INTERFACE)
   set_target_properties(duolux_all PROPERTIES EXPORT_NAME duolux)

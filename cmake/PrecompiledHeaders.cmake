@@ -1,15 +1,15 @@
-# Headers that take long to compile, compiled once for many sources. Sources include what they use all the same. ccache
-# does not store what is compiled with precompiled headers unless it is configured to, so a build with ccache has none.
+# Precompiles headers that take long to compile. Sources still include the headers that they use. By default, ccache does
+# not cache compilations with precompiled headers, so a build with ccache has none.
 if("${CMAKE_CXX_COMPILER_LAUNCHER}" MATCHES ccache)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 
-# CLI11 compiles its validators into every source that includes it. Command lines and most tests do not compute, so that
-# little optimisation suffices for them, whatever the build type asks for.
+# CLI11 compiles its validators into every source that includes it. Command lines and most tests compute little, so low
+# optimisation suffices for them in a release build.
 add_library(duolux_quick INTERFACE)
 target_compile_options(duolux_quick INTERFACE $<$<CONFIG:Release>:-O1>)
 
-# Of the libraries, of those that call Vulkan, of the command lines, and of the tests.
+# For the libraries, for those that call Vulkan, for the command lines, and for the tests.
 set(DUOLUX_PRECOMPILED
   <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span> <string> <string_view>
   <utility> <vector> <fmt/format.h> <glm/glm.hpp> <nlohmann/json.hpp>)

@@ -1,4 +1,4 @@
-# The version and the commit that the program reports. The commit is read again whenever HEAD moves.
+# The version and the commit that the program reports. The commit is updated whenever HEAD moves.
 find_package(Git QUIET)
 set(DUOLUX_COMMIT "unknown")
 if(Git_FOUND AND EXISTS ${CMAKE_SOURCE_DIR}/.git)

@@ -1,8 +1,8 @@
-# Warnings for the project's own targets. Libraries from the system are included as SYSTEM and stay silent.
+# Warnings for the project's own targets. System libraries are included as SYSTEM, without warnings.
 add_library(duolux_warnings INTERFACE)
-# GCC 12 follows the optimised code of std::string and std::vector into cases that cannot occur, and reports overlaps
-# and overflows there (GCC bugs 105651, 105762 and others). GCC 13 and 14 suspect every function that takes a temporary
-# and returns a reference, whatever it refers to (GCC bug 107532 and others).
+# GCC 12 reports overlaps and overflows in impossible cases of optimised std::string and std::vector code (GCC bugs
+# 105651, 105762 and others). GCC 13 and 14 warn about every function that takes a temporary and returns a reference,
+# whatever it refers to (GCC bug 107532 and others).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     set(DUOLUX_FALSE_WARNINGS -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
@@ -14,11 +14,11 @@ target_compile_options(duolux_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
   -Wdouble-promotion -Wimplicit-fallthrough $<$<BOOL:${DUOLUX_WERROR}>:-Werror> ${DUOLUX_FALSE_WARNINGS})
 
-# Assertions name files relative to the root: the program does not tell where it was built.
+# Assertions name files relative to the root, so the program does not reveal where it was built.
 add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 
-# duolux_library(NAME SOURCES ... LINK ... [PRECOMPILE ...]): one library per folder of host/, includes are relative to the
-# root. PRECOMPILE: its precompiled headers, if not those of duolux_base.
+# duolux_library(NAME SOURCES ... LINK ... [PRIVATE_LINK ...] [PRECOMPILE ...]): one library per folder of host/, with
+# includes relative to the root. PRECOMPILE: its precompiled headers, by default those of duolux_base.
 function(duolux_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK;PRECOMPILE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})

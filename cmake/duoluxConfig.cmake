@@ -1,4 +1,4 @@
-# Installed with the library; finds what it links.
+# Installed with the library; finds its dependencies.
 include(CMakeFindDependencyMacro)
 foreach(package Threads Vulkan glm fmt nlohmann_json OpenEXR PNG)
   find_dependency(${package})
