@@ -36,7 +36,7 @@ struct DeviceEmitter {
     // Entry of the alias table (Walker 1974; Vose 1991).
     float threshold;  // probability of keeping this entry
     uint alias;       // the entry to use otherwise
-    uint padding[2];
+    uint unused2[2];
 };
 static_assert(sizeof(DeviceEmitter) == kEmitterTexels * 16);
 #endif

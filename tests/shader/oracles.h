@@ -30,7 +30,7 @@ struct Budget {
 };
 
 /// Converts arguments of the functions in single precision to those of the functions in double precision.
-/// Overload it for structures, in the namespace of the structure.
+/// DUOLUX_MIRROR_TYPE overloads it for a structure, by widenTo().
 inline double widen(float x) {
     return static_cast<double>(x);
 }
@@ -50,6 +50,12 @@ glm::vec<N, double> widen(const glm::vec<N, float>& v) {
 template <glm::length_t N>
 glm::vec<N, std::uint32_t> widen(const glm::vec<N, std::uint32_t>& v) {
     return v;
+}
+
+/// A structure of which every field is the widened one of `s`.
+template <Structure Wide, Structure S>
+Wide widenTo(const S& s) {
+    return std::apply([](const auto&... fields) { return Wide{widen(fields)...}; }, fieldsOf(s));
 }
 
 /// Size of a unit in the last place of a float of this magnitude.

@@ -8,8 +8,7 @@
 // Compares the sums of lanes with both oracles. pixel_sums_test.glsl and light_path_test.glsl test the
 // expected values.
 
-DUOLUX_GLSL_TYPE(duolux::mirror::single::Array<6>, "uint[6]", "");
-DUOLUX_GLSL_TYPE(duolux::mirror::single::LaneSums, "LaneSums", "");
+DUOLUX_GLSL_TYPE(duolux::mirror::Array<6>, "uint[6]", "");
 
 namespace duolux::test {
 namespace {

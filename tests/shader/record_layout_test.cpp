@@ -3,7 +3,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <set>
 
+#include "shaders/shared/bvh_layout.h"
+#include "shaders/shared/path_layout.h"
 #include "tests/shader/layout_words.h"
 #include "tests/shader/mirror_types.h"
 
@@ -15,21 +19,55 @@ namespace {
 
 constexpr std::size_t kRecords = 4;
 
-/// The sentinels in these fields of a record, as the numbers that the device returns. Names have no index.
+/// A name without the structures that contain it: "bsdf.baseColor.x" -> "baseColor.x".
+std::string_view fieldOf(std::string_view word) {
+    const bool component = word.size() > 2 && word[word.size() - 2] == '.';
+    const std::size_t dot = word.substr(0, word.size() - (component ? 2 : 0)).rfind('.');
+    return dot == std::string_view::npos ? word : word.substr(dot + 1);
+}
+
+/// What the words of a record hold, by their names, as the numbers that the device returns.
 template <typename S>
-std::vector<double> sentinelNumbers(std::size_t record, const std::vector<std::string>& fields) {
-    std::vector<double> out;
-    const std::vector<LayoutWord> words = layoutWords<S>();
-    for (const std::string& field : fields) {
-        for (std::size_t w = 0; w < words.size(); ++w) {
-            if (words[w].name != field && !words[w].name.starts_with(field + ".")) continue;
+class SentinelRecord {
+  public:
+    explicit SentinelRecord(std::size_t record) {
+        for (std::size_t w = 0; w < words_.size(); ++w) {
             const std::uint32_t bits = sentinel(record, w);
-            out.push_back(words[w].isFloat ? static_cast<double>(std::bit_cast<float>(bits))
-                                           : static_cast<double>(bits));
+            numbers_[words_[w].name] = words_[w].isFloat ? static_cast<double>(std::bit_cast<float>(bits))
+                                                         : static_cast<double>(bits);
         }
     }
-    return out;
-}
+
+    std::vector<double> ofWords(const std::vector<std::string>& names) {
+        std::vector<double> out;
+        for (const std::string& name : names) {
+            EXPECT_TRUE(numbers_.contains(name)) << name;
+            out.push_back(numbers_[name]);
+            fetched_.insert(name);
+        }
+        return out;
+    }
+
+    /// Those of the fields of a structure of the library, which have the names of those of the record.
+    std::vector<double> ofStructure(std::string_view structure) {
+        std::vector<std::string> names;
+        for (const LayoutWord& word : layoutWords(structure))
+            names.emplace_back(fieldOf(word.name));
+        return ofWords(names);
+    }
+
+    /// Fails the test for a word that nothing fetched.
+    void expectAllFetched() const {
+        for (const auto& [name, number] : numbers_) {
+            EXPECT_TRUE(fetched_.contains(name) || name.starts_with("unused")) << name;
+        }
+    }
+
+  private:
+    std::vector<LayoutWord> words_ = layoutWords<S>();
+    std::map<std::string, double> numbers_;
+    std::set<std::string> fetched_;
+};
 
 std::vector<std::uint32_t> recordIndices() {
     return {0, 1, 2, 3};
@@ -45,20 +83,21 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
     const auto opaque = library.call<LightMatrix>("fetchOpaque", recordIndices());
     const auto transparent = library.call<LightMatrix>("fetchTransparent", recordIndices());
     for (std::size_t i = 0; i < kRecords; ++i) {
-        const auto expected = [&](const std::vector<std::string>& fields) {
-            return sentinelNumbers<shared::DeviceMaterial>(i, fields);
-        };
-        EXPECT_EQ(numbers(materials[i]), expected({"baseColor", "flags", "metallic", "roughness"}));
+        SentinelRecord<shared::DeviceMaterial> record(i);
+        EXPECT_EQ(numbers(materials[i]), record.ofStructure("Material"));
         // m00, m01, m10, m11 in xyz; w is padding.
-        std::vector<std::string> entries[2];
-        for (int entry = 0; entry < 4; ++entry) {
-            for (const char component : {'x', 'y', 'z'}) {
-                entries[0].push_back(fmt::format("opaque[{}].{}", entry, component));
-                entries[1].push_back(fmt::format("transparent[{}].{}", entry, component));
+        const auto matrix = [&](const char* field) {
+            std::vector<std::string> names;
+            for (int entry = 0; entry < 4; ++entry) {
+                for (const char component : {'x', 'y', 'z'})
+                    names.push_back(fmt::format("{}[{}].{}", field, entry, component));
+                record.ofWords({fmt::format("{}[{}].w", field, entry)});
             }
-        }
-        EXPECT_EQ(numbers(opaque[i]), expected(entries[0]));
-        EXPECT_EQ(numbers(transparent[i]), expected(entries[1]));
+            return record.ofWords(names);
+        };
+        EXPECT_EQ(numbers(opaque[i]), matrix("opaque"));
+        EXPECT_EQ(numbers(transparent[i]), matrix("transparent"));
+        record.expectAllFetched();
     }
 }
 
@@ -75,10 +114,10 @@ TEST(RecordLayout, EmittersAreFetchedFieldByField) {
     const auto emitters = library.call<Emitter>("fetchEmitter", recordIndices());
     const auto entries = library.call<AliasEntry>("fetchAliasEntry", recordIndices());
     for (std::size_t i = 0; i < kRecords; ++i) {
-        EXPECT_EQ(numbers(emitters[i]),
-                  sentinelNumbers<shared::DeviceEmitter>(i, {"v0", "flags", "v1", "positionError", "v2",
-                                                             "triangle", "invisible", "density", "visible"}));
-        EXPECT_EQ(numbers(entries[i]), sentinelNumbers<shared::DeviceEmitter>(i, {"threshold", "alias"}));
+        SentinelRecord<shared::DeviceEmitter> record(i);
+        EXPECT_EQ(numbers(emitters[i]), record.ofStructure("Emitter"));
+        EXPECT_EQ(numbers(entries[i]), record.ofStructure("AliasEntry"));
+        record.expectAllFetched();
     }
 }
 
@@ -97,10 +136,20 @@ TEST(RecordLayout, TrianglesAreFetchedFieldByField) {
     const auto first = library.evaluate<Triangle>("result = fetchPair(x0).first;", recordIndices());
     const auto second = library.evaluate<Triangle>("result = fetchPair(x0).second;", recordIndices());
     for (std::size_t i = 0; i < kRecords; ++i) {
-        const auto firstNumbers =
-            sentinelNumbers<shared::DevicePair>(i, {"v0", "v1", "v2", "primitive0", "materialFlags0"});
-        const auto secondNumbers =
-            sentinelNumbers<shared::DevicePair>(i, {"v3", "v2", "v1", "primitive1", "materialFlags1"});
+        SentinelRecord<shared::DevicePair> record(i);
+        const auto triangle = [&](const std::array<const char*, 3>& corners, const char* rank,
+                                  const char* flags) {
+            std::vector<std::string> names;
+            for (const char* corner : corners) {
+                for (const char component : {'x', 'y', 'z'})
+                    names.push_back(fmt::format("{}.{}", corner, component));
+            }
+            names.insert(names.end(), {rank, flags});
+            return record.ofWords(names);
+        };
+        const auto firstNumbers = triangle({"v0", "v1", "v2"}, "primitive0", "materialFlags0");
+        const auto secondNumbers = triangle({"v3", "v2", "v1"}, "primitive1", "materialFlags1");
+        record.expectAllFetched();
         EXPECT_EQ(numbers(triangles[2 * i]), firstNumbers);
         EXPECT_EQ(numbers(triangles[2 * i + 1]), secondNumbers);
         EXPECT_EQ(numbers(first[i]), firstNumbers);

@@ -107,11 +107,6 @@ struct Basis {
     Vector tangent, bitangent;
 };
 
-template <typename Vector>
-std::vector<double> numbers(const Basis<Vector>& basis) {
-    return test::numbers(basis.tangent, basis.bitangent);
-}
-
 }  // namespace
 }  // namespace duolux::test
 

@@ -5,12 +5,16 @@
 #include <map>
 #include <source_location>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
+#include "tests/shader/harness/fields.h"
+
 namespace duolux::test {
 
-/// The numbers in a value. For structures, overload it in their namespace in terms of these overloads.
+/// The numbers in a value; those of a structure in the order of its fields. Overload it, in the namespace of
+/// a structure, where others are to be compared.
 template <typename T>
 requires std::is_arithmetic_v<T> std::vector<double> numbers(T x) {
     return {static_cast<double>(x)};
@@ -21,6 +25,12 @@ std::vector<double> numbers(const glm::vec<N, T>& v) {
     for (glm::length_t i = 0; i < N; ++i)
         out.push_back(static_cast<double>(v[i]));
     return out;
+}
+template <typename... Parts>
+requires(sizeof...(Parts) > 1) std::vector<double> numbers(const Parts&... parts);
+template <Structure S>
+std::vector<double> numbers(const S& s) {
+    return std::apply([](const auto&... fields) { return numbers(fields...); }, fieldsOf(s));
 }
 template <typename... Parts>
 requires(sizeof...(Parts) > 1) std::vector<double> numbers(const Parts&... parts) {

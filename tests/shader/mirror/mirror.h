@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -31,6 +32,19 @@ glm::vec<sizeof...(Components), T> operator->*(const glm::vec<N, T>& v, Swizzle<
     return glm::vec<sizeof...(Components), T>(v[Components]...);
 }
 }  // namespace swizzle
+
+/// uint[N].
+template <std::size_t N>
+struct Array {
+    std::uint32_t items[N];
+    template <std::integral... Items>
+    explicit(false) Array(Items... values) : items{values...} {}
+    std::uint32_t& operator[](std::size_t i) { return items[i]; }
+    std::uint32_t operator[](std::size_t i) const { return items[i]; }
+
+    friend std::vector<double> numbers(const Array& a) { return {a.items, a.items + N}; }
+    friend Array widen(const Array& a) { return a; }
+};
 
 /// The contents of the kernels' texel buffers. The library reads a scene only through the functions that
 /// fetch from them.
