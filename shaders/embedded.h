@@ -8,10 +8,10 @@ namespace duolux::spirv {
 
 using Words = std::span<const std::uint32_t>;
 
-extern const Words kPathKernelTexel, kPathKernelStorage, kPathKernelRayQuery;
-extern const Words kLightKernelTexel, kLightKernelStorage, kLightKernelRayQuery;
+extern const Words kPathTracerTexel, kPathTracerStorage, kPathTracerRayQuery;
+extern const Words kLightTracerTexel, kLightTracerStorage, kLightTracerRayQuery;
 /// These need DeviceInfo::int64Atomics.
-extern const Words kLightKernelInt64Texel, kLightKernelInt64Storage, kLightKernelInt64RayQuery;
+extern const Words kLightTracerInt64Texel, kLightTracerInt64Storage, kLightTracerInt64RayQuery;
 extern const Words kTraceKernelTexel, kTraceKernelStorage, kTraceKernelRayQuery;
 
 }  // namespace duolux::spirv

@@ -46,8 +46,9 @@ void warnIfIncomplete(const std::string& file, const Checkpoint& part) {
     const std::uint64_t wanted =
         (part.origin.settings.spp - part.origin.firstSample) * (std::uint64_t{film.width()} * film.height());
     if (taken == wanted) return;
-    warn(fmt::format("{} has {} of {} {}; --resume traces the remaining ones", file, taken, wanted,
-                     part.origin.settings.integrator == Integrator::kLight ? "light paths" : "samples"));
+    warn(
+        fmt::format("{} has {} of {} {}; --resume traces the remaining ones", file, taken, wanted,
+                    part.origin.settings.integrator == Integrator::kLightTracer ? "light paths" : "samples"));
 }
 
 void runMerge(const MergeOptions& options) {

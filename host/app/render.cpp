@@ -88,7 +88,8 @@ Overrides parseOverrides(const RenderOptions& options) {
     if (!options.sampleRange.empty()) overrides.range = parseSampleRange(options.sampleRange);
     if (!options.aov.empty()) overrides.layers = parseLayers(options.aov);
     if (!options.integrator.empty()) {
-        overrides.integrator = options.integrator == "light" ? Integrator::kLight : Integrator::kPath;
+        overrides.integrator =
+            options.integrator == "light" ? Integrator::kLightTracer : Integrator::kPathTracer;
     }
     return overrides;
 }
@@ -99,7 +100,7 @@ std::string percent(double part, double whole) {
 }
 
 const char* samplesName(const RenderSettings& settings) {
-    return settings.integrator == Integrator::kLight ? "light paths" : "samples";
+    return settings.integrator == Integrator::kLightTracer ? "light paths" : "samples";
 }
 
 std::uint64_t samplesInAll(const RenderSettings& settings, const RenderControl& control) {
@@ -140,7 +141,7 @@ std::vector<std::string> resultWarnings(const RenderSettings& settings, const Re
 
 DirectLight chooseDirectLight(const RenderOptions& options, const RenderSettings& settings) {
     if (options.directLight.empty()) return DirectLight::kAuto;
-    if (settings.integrator == Integrator::kLight) {
+    if (settings.integrator == Integrator::kLightTracer) {
         throw UsageError(
             "--direct-light applies only to --integrator path; the light tracer does not sample direct "
             "light");
@@ -153,7 +154,7 @@ DirectLight chooseDirectLight(const RenderOptions& options, const RenderSettings
 void requireUseOfLayers(const RenderOptions& options, const std::vector<std::string>& outputs,
                         const RenderSettings& settings) {
     if (options.aov.empty()) return;
-    if (settings.integrator == Integrator::kLight) {
+    if (settings.integrator == Integrator::kLightTracer) {
         throw UsageError(fmt::format(
             "--aov {}: the light tracer traces no camera rays; expected --integrator path", options.aov));
     }
@@ -272,7 +273,7 @@ void runRender(const RenderOptions& options) {
     requireNoOtherFile(options.checkpoint);
     overrides.applyTo(scene.settings, options);
     requireUseOfLayers(options, outputs, scene.settings);
-    if (scene.settings.integrator == Integrator::kLight) warnOfMirrors(scene);
+    if (scene.settings.integrator == Integrator::kLightTracer) warnOfMirrors(scene);
     for (const Warning& warning : scene.warnings)
         warn(warning.text);
     RenderControl control;

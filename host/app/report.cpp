@@ -28,7 +28,7 @@ std::string renderReport(const LoadedScene& scene, std::uint32_t firstSample, co
                          const RenderStatistics& statistics, const StageSeconds& seconds) {
     const std::uint64_t rays = statistics.cameraRays + statistics.lightRays + statistics.bounceRays +
                                statistics.shadowRays + statistics.emitterRays;
-    const bool shot = scene.settings.integrator == Integrator::kLight;
+    const bool shot = scene.settings.integrator == Integrator::kLightTracer;
     const char* directLight =
         shot ? "light paths" : (statistics.directLightInClosedForm ? "closed-form" : "sampled");
     nlohmann::ordered_json report;

@@ -141,16 +141,16 @@ Trees joinTrees(const Geometry& geometry, const WideBvh& all, std::span<const st
 
 /// The separate tree over emitters serves only rays that no surface blocks.
 bool needsEmitterTree(const TransportTraits& traits, std::span<const std::uint32_t> emitters) {
-    return traits.transmittance == shared::kTransmittanceIdentity && !emitters.empty();
+    return traits.transparency == shared::kTransparencyIdentity && !emitters.empty();
 }
 
 EmitterTable emitterTableOf(const Scene& scene, std::span<const std::uint32_t> emitters,
                             const TransportTraits& traits, Integrator integrator) {
-    return buildEmitterTable(scene, emitters, traits.secondColumn || integrator == Integrator::kLight);
+    return buildEmitterTable(scene, emitters, traits.secondColumn || integrator == Integrator::kLightTracer);
 }
 
 bool hasClosedForm(const TransportTraits& traits, bool smoothNormals, std::size_t emitters) {
-    return traits.transmittance == shared::kTransmittanceIdentity && traits.lobes == shared::kLobeDiffuse &&
+    return traits.transparency == shared::kTransparencyIdentity && traits.lobes == shared::kLobeDiffuse &&
            !smoothNormals && emitters > 0 && emitters <= kMostClosedFormEmitters;
 }
 
@@ -164,7 +164,7 @@ std::vector<std::uint32_t> deviceTriangles(const Trees& trees, std::size_t count
     return places;
 }
 
-void storeMatrix(const LightMatrix& m, glm::vec4 (&out)[4]) {
+void storeMatrix(const ReflectanceMatrix& m, glm::vec4 (&out)[4]) {
     out[0] = glm::vec4(m.m00, 0.0f);
     out[1] = glm::vec4(m.m01, 0.0f);
     out[2] = glm::vec4(m.m10, 0.0f);

@@ -53,8 +53,8 @@ void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Sc
 
 /// Builds the trees and uploads the scene for one of the integrators. Throws MachineError if it does not fit
 /// the device, and UsageError if the device does not support the requested tuning.
-DeviceScene uploadScene(const Device& device, const Scene& scene, Integrator integrator = Integrator::kPath,
-                        const TuningChoice& choice = {});
+DeviceScene uploadScene(const Device& device, const Scene& scene,
+                        Integrator integrator = Integrator::kPathTracer, const TuningChoice& choice = {});
 
 /// Brings the device up to date with a scene of the same geometry whose materials and reflectances may be
 /// others, and the integrator, too. The tree over all triangles is not built again. Throws as uploadScene.

@@ -14,7 +14,7 @@ bool any(const glm::vec3& v) {
 struct Pattern {
     unsigned row[2] = {0, 0};
 
-    void add(const LightMatrix& m) {
+    void add(const ReflectanceMatrix& m) {
         row[0] |= (any(m.m00) ? 1u : 0u) | (any(m.m01) ? 2u : 0u);
         row[1] |= (any(m.m10) ? 1u : 0u) | (any(m.m11) ? 2u : 0u);
     }
@@ -62,16 +62,16 @@ TransportTraits analyseTransport(const Scene& scene) {
     traits.invisibleCrosses = transparent.row[0] != 0;
     traits.visibleCrosses = transparent.row[1] != 0;
     if (!traits.invisibleCrosses && !traits.visibleCrosses) {
-        traits.transmittance = shared::kTransmittanceZero;
+        traits.transparency = shared::kTransparencyZero;
     } else if (identity && !traits.secondColumn) {
-        traits.transmittance = shared::kTransmittanceIdentity;
+        traits.transparency = shared::kTransparencyIdentity;
     } else {
-        traits.transmittance = shared::kTransmittanceGeneral;
+        traits.transparency = shared::kTransparencyGeneral;
     }
     const bool loseVisible = !traits.visibleCrosses;
-    traits.cameraTransmittance = traits.transmittance == shared::kTransmittanceIdentity && !loseVisible
-                                     ? shared::kTransmittanceGeneral
-                                     : traits.transmittance;
+    traits.cameraTransparency = traits.transparency == shared::kTransparencyIdentity && !loseVisible
+                                    ? shared::kTransparencyGeneral
+                                    : traits.transparency;
 
     // Follows the components that can carry importance until none can. From both on, the set only shrinks.
     unsigned set = 3;

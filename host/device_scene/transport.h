@@ -3,18 +3,18 @@
 #include <cstdint>
 
 #include "host/scene/scene.h"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 namespace duolux {
 
 /// Properties of the matrices and the BSDFs of a scene's materials. Kernels are specialised for them, so that
 /// a scene does not pay for features it does not use.
 struct TransportTraits {
-    std::uint32_t transmittance = shared::kTransmittanceZero;  ///< one of shared::kTransmittance...
+    std::uint32_t transparency = shared::kTransparencyZero;  ///< one of shared::kTransparency...
     /// The same for connections from light paths to the camera, where both components count:
-    /// kTransmittanceIdentity if surfaces transmit the invisible component unchanged and block the visible
+    /// kTransparencyIdentity if surfaces transmit the invisible component unchanged and block the visible
     /// one.
-    std::uint32_t cameraTransmittance = shared::kTransmittanceZero;
+    std::uint32_t cameraTransparency = shared::kTransparencyZero;
     bool secondColumn = false;  ///< some O or T has an entry 01 or 11
     bool invisibleScatters =
         false;  ///< some O has an entry in row 0: importance for invisible light scatters

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/base/parallel.h"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 namespace duolux {
 
@@ -21,20 +21,20 @@ Film::Film(std::uint32_t width, std::uint32_t height, float quantum, FilmLayerSe
       layerSums_(sums_.size() * channelsOf(layers)) {}
 
 Film::Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples,
-           Sums lightSums, std::uint64_t lightPaths, Carries carries, FilmLayerSet layers,
+           Sums lightPathSums, std::uint64_t lightPaths, Carries carries, FilmLayerSet layers,
            LayerSums layerSums)
     : width_(width),
       height_(height),
       quantum_(quantum),
       sums_(std::move(sums)),
       samples_(std::move(samples)),
-      lightSums_(std::move(lightSums)),
+      lightPathSums_(std::move(lightPathSums)),
       lightPaths_(lightPaths),
       carries_(std::move(carries)),
       layers_(layers),
       layerSums_(std::move(layerSums)) {
     assert(sums_.size() == std::size_t{width} * height && samples_.size() == sums_.size());
-    assert(lightSums_.empty() || lightSums_.size() == sums_.size());
+    assert(lightPathSums_.empty() || lightPathSums_.size() == sums_.size());
     assert(layerSums_.size() == sums_.size() * channelsOf(layers));
 }
 
@@ -83,7 +83,7 @@ void Film::refine(int shift) {
         }
     };
     shiftAll(sums_, 0);
-    shiftAll(lightSums_, firstLightSum());
+    shiftAll(lightPathSums_, firstLightPathSum());
 }
 
 void Film::add(const Film& other) {
@@ -102,9 +102,9 @@ void Film::add(const Film& other) {
     }
     for (std::size_t i = 0; i < layerSums_.size(); ++i)
         layerSums_[i] += other.layerSums_[i];
-    if (!other.lightSums_.empty() && lightSums_.empty()) lightSums_ = Sums(sums_.size());
-    for (std::size_t i = 0; i < other.lightSums_.size(); ++i)
-        addTo(lightSums_[i], other.lightSums_[i], firstLightSum() + 6 * i);
+    if (!other.lightPathSums_.empty() && lightPathSums_.empty()) lightPathSums_ = Sums(sums_.size());
+    for (std::size_t i = 0; i < other.lightPathSums_.size(); ++i)
+        addTo(lightPathSums_[i], other.lightPathSums_[i], firstLightPathSum() + 6 * i);
     countLightPaths(other.lightPaths_);
     for (const auto& [sum, count] : other.carries_)
         carry(sum, count);
@@ -123,9 +123,9 @@ void Film::add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> 
         layerSums_[pixels[i / channels] * channels + i % channels] += layerSums[i];
 }
 
-void Film::addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums) {
+void Film::addLightPathSums(std::uint32_t firstPixel, std::span<const PixelSum> sums) {
     if (sums.empty()) return;
-    if (lightSums_.empty()) lightSums_ = Sums(sums_.size());
+    if (lightPathSums_.empty()) lightPathSums_ = Sums(sums_.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         PixelSum sum = sums[i];
         for (int c = 0; c < 3; ++c) {
@@ -135,7 +135,7 @@ void Film::addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums) {
                 overflowed_ = true;
             }
         }
-        addTo(lightSums_[firstPixel + i], sum, firstLightSum() + 6 * (firstPixel + i));
+        addTo(lightPathSums_[firstPixel + i], sum, firstLightPathSum() + 6 * (firstPixel + i));
     }
 }
 
@@ -167,7 +167,8 @@ glm::dvec3 Film::meanOf(std::size_t pixel, int component) const {
     glm::dvec3 mean;
     for (int c = 0; c < 3; ++c) {
         mean[c] = value(sums_[pixel], c, 0) * scale;
-        if (!lightSums_.empty()) mean[c] += value(lightSums_[pixel], c, firstLightSum()) * lightScale;
+        if (!lightPathSums_.empty())
+            mean[c] += value(lightPathSums_[pixel], c, firstLightPathSum()) * lightScale;
     }
     return mean;
 }

@@ -32,10 +32,11 @@ class Film {
     /// `quantum`: the radiance of one unit, a power of two > 0.
     Film(std::uint32_t width, std::uint32_t height, float quantum, FilmLayerSet layers = 0);
 
-    /// Creates a film from the values of another film's accessors; `lightSums` may be empty. The sizes must
-    /// match.
-    Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples, Sums lightSums,
-         std::uint64_t lightPaths, Carries carries, FilmLayerSet layers = 0, LayerSums layerSums = {});
+    /// Creates a film from the values of another film's accessors; `lightPathSums` may be empty. The sizes
+    /// must match.
+    Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples,
+         Sums lightPathSums, std::uint64_t lightPaths, Carries carries, FilmLayerSet layers = 0,
+         LayerSums layerSums = {});
 
     /// Must be called before anything is added.
     void setQuantum(float quantum);
@@ -57,7 +58,7 @@ class Film {
     /// has exceeded 63 bits, counts as the largest value, and sets overflowed(). These sums are kept
     /// separately from those of the path tracer: the value of a pixel is its sum over all light paths, in
     /// units of radiance, divided by the number of light paths per pixel of the image.
-    void addLight(std::uint32_t firstPixel, std::span<const PixelSum> sums);
+    void addLightPathSums(std::uint32_t firstPixel, std::span<const PixelSum> sums);
 
     /// Counts light paths whose contributions have been added, including those without any.
     void countLightPaths(std::uint64_t paths) { lightPaths_ += paths; }
@@ -72,7 +73,7 @@ class Film {
     std::span<const std::uint32_t> samples() const { return samples_; }
     std::span<const PixelSum> sums() const { return sums_; }
     std::uint64_t lightPaths() const { return lightPaths_; }
-    std::span<const PixelSum> lightSums() const { return lightSums_; }  ///< empty without light paths
+    std::span<const PixelSum> lightPathSums() const { return lightPathSums_; }  ///< empty without light paths
     const Carries& carries() const { return carries_; }
     FilmLayerSet layers() const { return layers_; }
     /// Sums over the samples of each pixel in the quanta of the layers: all channels of one layer after the
@@ -96,7 +97,7 @@ class Film {
     void carry(std::uint64_t sum, std::int64_t count);
     /// Multiplies all sums by 2^shift and divides the quantum by 2^shift.
     void refine(int shift);
-    std::uint64_t firstLightSum() const { return 6 * std::uint64_t{width_} * height_; }
+    std::uint64_t firstLightPathSum() const { return 6 * std::uint64_t{width_} * height_; }
     /// The mean of one component of a pixel before clamping; `component`: 0 invisible, 1 visible.
     glm::dvec3 meanOf(std::size_t pixel, int component) const;
 
@@ -105,7 +106,7 @@ class Film {
     bool overflowed_ = false;
     Sums sums_;
     Samples samples_;
-    Sums lightSums_;
+    Sums lightPathSums_;
     std::uint64_t lightPaths_ = 0;
     Carries carries_;
     FilmLayerSet layers_;

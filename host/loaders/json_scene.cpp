@@ -104,7 +104,8 @@ void readRender(const JsonNode& node, RenderSettings& render) {
     }
     if (const auto integrator = node.find("integrator")) {
         static const std::array<std::string, 2> kNames{"path", "light"};
-        render.integrator = integrator->choice(kNames) == 0 ? Integrator::kPath : Integrator::kLight;
+        render.integrator =
+            integrator->choice(kNames) == 0 ? Integrator::kPathTracer : Integrator::kLightTracer;
     }
 }
 

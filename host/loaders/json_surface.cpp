@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLargestFactor = 1e6;
 
-LightMatrix readMatrix(const JsonNode& node) {
+ReflectanceMatrix readMatrix(const JsonNode& node) {
     const char* const shape = "expected [[m00, m01], [m10, m11]]";
     const std::string entry = fmt::format("expected a number or [r, g, b], from 0 to {:g}", kLargestFactor);
     const std::vector<JsonNode> rows = node.elements(shape, 2);

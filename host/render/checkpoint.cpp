@@ -72,7 +72,7 @@ std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderSta
                           {"end_sample", settings.spp}};
     header["film"] = {{"quantum", film.quantum()},
                       {"light_paths", film.lightPaths()},
-                      {"light_sums", !film.lightSums().empty()},
+                      {"light_sums", !film.lightPathSums().empty()},
                       {"carries", film.carries()},
                       {"layers", namesOf(film.layers())},
                       {"overflowed", statistics.filmOverflowed || film.overflowed()},
@@ -98,8 +98,9 @@ FilmOrigin originFrom(const nlohmann::json& header) {
     settings.at("first_sample").get_to(origin.firstSample);
     origin.settings.sampler =
         settings.at("sampler") == nameOf(Sampler::kIndependent) ? Sampler::kIndependent : Sampler::kSobol;
-    origin.settings.integrator =
-        settings.at("integrator") == nameOf(Integrator::kLight) ? Integrator::kLight : Integrator::kPath;
+    origin.settings.integrator = settings.at("integrator") == nameOf(Integrator::kLightTracer)
+                                     ? Integrator::kLightTracer
+                                     : Integrator::kPathTracer;
     origin.directLight = settings.at("direct_light") == nameOf(DirectLight::kClosedForm)
                              ? DirectLight::kClosedForm
                              : DirectLight::kSampled;
@@ -139,12 +140,12 @@ Checkpoint parse(std::string_view bytes, const Fail& fail) {
         fail(kPartsDoNotFit);
     auto samples = take<Film::Samples>(bytes, pixels);
     auto sums = take<Film::Sums>(bytes, pixels);
-    auto lightSums = light ? take<Film::Sums>(bytes, pixels) : Film::Sums();
+    auto lightPathSums = light ? take<Film::Sums>(bytes, pixels) : Film::Sums();
     auto layerSums = take<Film::LayerSums>(bytes, pixels * channels);
     const FilmLayerSet layers = origin.settings.layers;
     return {std::move(origin),
             {Film(width, height, film.at("quantum").get<float>(), std::move(sums), std::move(samples),
-                  std::move(lightSums), film.at("light_paths").get<std::uint64_t>(),
+                  std::move(lightPathSums), film.at("light_paths").get<std::uint64_t>(),
                   film.at("carries").get<Film::Carries>(), layers, std::move(layerSums)),
              film.at("last_bounce").get<double>(), film.at("previous_bounce").get<double>(),
              film.at("overflowed").get<bool>()}};
@@ -172,7 +173,7 @@ void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin
         for (const std::string_view part :
              {std::string_view(kMagic, kMagicBytes), bytesOf(std::span(&headerBytes, 1)),
               std::string_view(header), bytesOf(film.samples()), bytesOf(film.sums()),
-              bytesOf(film.lightSums()), bytesOf(film.layerSums())}) {
+              bytesOf(film.lightPathSums()), bytesOf(film.layerSums())}) {
             checksum.add(part);
             file.write(part);
         }

@@ -62,9 +62,9 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
                             const RenderSettings& settings, const RenderControl& control);
 
 /// Path tracer: traces all samples of all pixels.
-void gather(RenderContext& context);
+void tracePaths(RenderContext& context);
 
 /// Light tracer: traces as many light paths as the path tracer would trace samples.
-void shoot(RenderContext& context);
+void traceLightPaths(RenderContext& context);
 
 }  // namespace duolux

@@ -10,7 +10,7 @@ namespace duolux {
 
 namespace {
 
-shared::DeviceLightMatrix deviceMatrix(const LightMatrix& m) {
+shared::DeviceReflectanceMatrix deviceMatrix(const ReflectanceMatrix& m) {
     return {m.m00, m.m01, m.m10, m.m11};
 }
 
@@ -71,7 +71,7 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
             {shared::kSpecLeaveTraversal, tuning.leaveTraversal},
             {shared::kSpecLeaveNodes, tuning.leaveNodes},
             {shared::kSpecVoteByShuffle, tuning.voteByShuffle},
-            {shared::kSpecTransmittance, traits.transmittance},
+            {shared::kSpecTransparency, traits.transparency},
             {shared::kSpecSecondColumn, traits.secondColumn},
             {shared::kSpecInvisibleScatters, traits.invisibleScatters},
             {shared::kSpecVisibleScatters, traits.visibleScatters},
@@ -91,7 +91,7 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
 }
 
 std::uint32_t lanePaths(const DeviceScene& deviceScene) {
-    const bool crossing = deviceScene.traits.transmittance == shared::kTransmittanceGeneral;
+    const bool crossing = deviceScene.traits.transparency == shared::kTransparencyGeneral;
     return crossing ? deviceScene.tuning.laneCrossingPaths : deviceScene.tuning.lanePaths;
 }
 

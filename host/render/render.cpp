@@ -117,10 +117,10 @@ Film makeFilm(const RenderSettings& settings) {
 }
 
 void trace(RenderContext& context) {
-    if (context.settings.integrator == Integrator::kLight) {
-        shoot(context);
+    if (context.settings.integrator == Integrator::kLightTracer) {
+        traceLightPaths(context);
     } else {
-        gather(context);
+        tracePaths(context);
     }
 }
 
@@ -137,7 +137,7 @@ void trace(RenderContext& context) {
 
 RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScene& deviceScene,
                             const RenderSettings& settings, const RenderControl& control) {
-    if (settings.layers != 0 && settings.integrator == Integrator::kLight) {
+    if (settings.layers != 0 && settings.integrator == Integrator::kLightTracer) {
         throw UsageError(
             fmt::format("{}: the light tracer traces no camera rays, from which layers are filled",
                         scene.source.string()));

@@ -31,7 +31,7 @@ class Renderer {
   private:
     Device& device_;
     Scene scene_;
-    Integrator integrator_ = Integrator::kPath;  ///< that the device scene is made for
+    Integrator integrator_ = Integrator::kPathTracer;  ///< that the device scene is made for
     DeviceScene deviceScene_;
     bool upToDate_ = true;  ///< the device knows of the materials
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 namespace duolux {
 

@@ -36,8 +36,8 @@ bool MaterialEnergy::grows() const {
 
 MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo) {
     MaterialEnergy energy;
-    const LightMatrix& o = reflectance.opaque;
-    const LightMatrix& t = reflectance.transparent;
+    const ReflectanceMatrix& o = reflectance.opaque;
+    const ReflectanceMatrix& t = reflectance.transparent;
     for (int i = 0; i < 3; ++i) {
         const float o00 = albedo[i] * o.m00[i], o01 = albedo[i] * o.m01[i];
         const float o10 = albedo[i] * o.m10[i], o11 = albedo[i] * o.m11[i];
@@ -72,7 +72,7 @@ EmitterSummary summariseEmitters(const Scene& scene) {
 bool anySurfaceScatters(const Scene& scene) {
     return std::ranges::any_of(scene.geometry.materials, [&](std::uint32_t index) {
         const Material& material = scene.materials[index];
-        const LightMatrix& o = scene.reflectanceOf(material).opaque;
+        const ReflectanceMatrix& o = scene.reflectanceOf(material).opaque;
         const glm::vec3 scattered = meanAlbedo(material) * (o.m00 + o.m01 + o.m10 + o.m11);
         return glm::any(glm::greaterThan(scattered, glm::vec3(0.0f)));
     });

@@ -10,7 +10,7 @@ namespace duolux {
 
 namespace {
 
-void addTo(Hasher& hasher, const LightMatrix& matrix) {
+void addTo(Hasher& hasher, const ReflectanceMatrix& matrix) {
     for (const glm::vec3& entry : {matrix.m00, matrix.m01, matrix.m10, matrix.m11})
         duolux::addTo(hasher, entry);
 }

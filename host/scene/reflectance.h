@@ -10,16 +10,16 @@ namespace duolux {
 
 /// A 2x2 matrix per colour channel: entry ij maps component j to component i, 0 = invisible, 1 = visible;
 /// each entry holds the three channels (r, g, b). Entries are finite and >= 0.
-struct LightMatrix {
+struct ReflectanceMatrix {
     glm::vec3 m00{0.0f}, m01{0.0f}, m10{0.0f}, m11{0.0f};
 
-    bool operator==(const LightMatrix&) const = default;
+    bool operator==(const ReflectanceMatrix&) const = default;
 };
 
 /// F = opaque f_opaque + transparent f_transp (theory of the paper's eqs. 14-23 in its general form).
 struct Reflectance {
-    LightMatrix opaque;
-    LightMatrix transparent;
+    ReflectanceMatrix opaque;
+    ReflectanceMatrix transparent;
 
     bool operator==(const Reflectance&) const = default;
 };

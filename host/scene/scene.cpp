@@ -17,7 +17,7 @@ const char* nameOf(Sampler sampler) {
 }
 
 const char* nameOf(Integrator integrator) {
-    return integrator == Integrator::kLight ? "light" : "path";
+    return integrator == Integrator::kLightTracer ? "light" : "path";
 }
 
 void noteContent(Scene& scene) {

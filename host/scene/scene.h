@@ -45,8 +45,8 @@ struct Camera {
 enum class Sampler : std::uint8_t { kSobol, kIndependent };
 
 enum class Integrator : std::uint8_t {
-    kPath,  ///< gathering: paths from the camera
-    kLight  ///< shooting: paths from the emitters
+    kPathTracer,  ///< gathering: paths from the camera
+    kLightTracer  ///< shooting: paths from the emitters
 };
 
 /// As in scene files and on the command line.
@@ -60,7 +60,7 @@ struct RenderSettings {
     std::uint32_t bounces = 16;               ///< largest number of scattering events on a path, 0..65535
     std::uint32_t seed = 1;
     Sampler sampler = Sampler::kSobol;
-    Integrator integrator = Integrator::kPath;
+    Integrator integrator = Integrator::kPathTracer;
     std::uint32_t layers = 0;  ///< optional layers of the film, a FilmLayerSet; kPath only
 
     float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }

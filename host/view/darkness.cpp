@@ -76,7 +76,7 @@ class Inspection {
         bool invisible = false, visible = false, fromInvisible = false, fromVisible = false;
         for (const std::uint32_t index : scene_.geometry.materials) {
             const Material& material = scene_.materials[index];
-            const LightMatrix& opaque = scene_.reflectanceOf(material).opaque;
+            const ReflectanceMatrix& opaque = scene_.reflectanceOf(material).opaque;
             invisible = invisible || any(material.emission.invisible);
             visible = visible || any(material.emission.visible);
             fromInvisible = fromInvisible || any(opaque.m10);

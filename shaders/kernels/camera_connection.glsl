@@ -1,11 +1,13 @@
 // Connections of light paths to the camera, and the sums of the film that they add to.
 
-// What surfaces may scatter or transmit of a particle's flux, in its largest channel. Without a second column, the
+// What surfaces may scatter or transmit of a light path's flux, in its largest channel. Without a second column, the
 // visible component contributes only at the camera.
-float carried(Light l) { return maxComponent(l.invisible + (kSecondColumn ? l.visible : vec3(0.0))); }
+float carried(Radiance2 l) { return maxComponent(l.invisible + (kSecondColumn ? l.visible : vec3(0.0))); }
 
 // The weight of light in a pixel.
-float rowWeighted(Light l) { return maxComponent(params.rowWeight.x * l.invisible + params.rowWeight.y * l.visible); }
+float rowWeighted(Radiance2 l) {
+    return maxComponent(params.rowWeight.x * l.invisible + params.rowWeight.y * l.visible);
+}
 
 // Russian roulette on connections, where only a part of their worth is left.
 float connectionSurvival(float left, float whole) { return min(left / whole, 1.0); }
@@ -23,12 +25,12 @@ bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
 }
 
 // `stream`: of the light path.
-void splat(inout LaneSums sums, Light light, Connection connection, uvec2 stream) {
+void splat(inout LaneSums sums, Radiance2 light, Connection connection, uvec2 stream) {
     uint pixel = connection.pixel;
     vec3 total = light.invisible + light.visible;
     float sum = total.x + total.y + total.z;
     // Written so that NaN is dropped, too.
-    bool fine = sum < kLargestRadiance;
+    bool fine = sum < kLargestSample;
     sums.nonFinite += fine ? 0u : 1u;
     if (!fine) return;
     sums.clamped += sum * dispatch.inverseQuantum >= kFilmLargest ? 1u : 0u;
@@ -70,7 +72,7 @@ vec3 directionToCamera(vec3 point) { return connectToCamera(params.camera, point
 void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     CameraConnection camera = connectToCamera(params.camera, outgoing.point.position);
     float cosine = max(dot(outgoing.point.geometricNormal, camera.direction), 0.0);
-    Light arriving = lightScale(outgoing.intensity, vec3(cosine * camera.importance));
+    Radiance2 arriving = scaled(outgoing.intensity, vec3(cosine * camera.importance));
     // Light that counts less than its brightness, by components that are not displayed, is connected less often.
     float brightness = maxComponent(max(arriving.invisible, arriving.visible));
     float worth = max(params.rowWeight.x, params.rowWeight.y) * brightness;
@@ -95,9 +97,9 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
 // The ray to the camera has met a surface, or nothing more.
 void continueConnection(inout Connection connection, inout LaneSums sums, uvec2 stream, Traversal ray, bool found,
                         uint material) {
-    if (kCameraTransmittance == kTransmittanceGeneral && found) {
+    if (kCameraTransparency == kTransparencyGeneral && found) {
         float before = rowWeighted(connection.light);
-        Light through = lightApply(transparentOf(material), connection.light);
+        Radiance2 through = matrixApply(transparentOf(material), connection.light);
         // Roulette where what is displayed is lost, by the same number all along the ray.
         connection.survival *= connectionSurvival(rowWeighted(through), before);
         connection.light = through;
@@ -105,10 +107,10 @@ void continueConnection(inout Connection connection, inout LaneSums sums, uvec2 
         connection.pending = connection.roulette < connection.survival;
         return;
     }
-    Light light = connection.light;
+    Radiance2 light = connection.light;
     // Surfaces that pass on the invisible component as it is, and nothing of the visible one.
-    if (found) light = Light(kCameraTransmittance == kTransmittanceIdentity ? light.invisible : vec3(0.0), vec3(0.0));
-    light = lightScale(light, vec3(1.0 / connection.survival));
+    if (found) light = Radiance2(kCameraTransparency == kTransparencyIdentity ? light.invisible : vec3(0.0), vec3(0.0));
+    light = scaled(light, vec3(1.0 / connection.survival));
     if (maxComponent(light.invisible + light.visible) != 0.0) splat(sums, light, connection, stream);
     connection.pending = false;
 }

@@ -3,13 +3,13 @@
 // A path in flight.
 struct Path {
     uvec2 stream;            // pixel and sample
-    LightMatrix importance;  // W on the segment, after all surfaces crossed so far
+    ReflectanceMatrix importance;  // W on the segment, after all surfaces crossed so far
     Segment segment;
     float bsdfPdf;           // density of the segment's direction, per steradian
     uint scatterings;        // events before the segment
     uint crossings;          // on the segment
     bool ended;
-    LightMatrix scattered;   // W O at the chosen vertex of the segment
+    ReflectanceMatrix scattered;   // W O at the chosen vertex of the segment
 };
 
 Path cameraPath(uvec2 stream) {
@@ -17,7 +17,7 @@ Path cameraPath(uvec2 stream) {
     CameraRay ray = cameraRay(params.camera, corner + drawPair(stream, kDimensionPixel));
     Path path;
     path.stream = stream;
-    path.importance = lightIdentity();
+    path.importance = matrixIdentity();
     path.segment = Segment(ray.origin, ray.direction, 0.0, kNoTriangle);
     path.bsdfPdf = 0.0;
     path.scatterings = 0u;
@@ -33,8 +33,8 @@ bool onlyEmissionLeft(Path path) {
 }
 
 // Without the second column all importance is on the first, but for the visible row of the camera's own segment.
-LightMatrix importanceOf(Path path) {
+ReflectanceMatrix importanceOf(Path path) {
     if (kSecondColumn) return path.importance;
     float atCamera = onCameraSegment(path) ? 1.0 : 0.0;
-    return LightMatrix(path.importance.m00, vec3(0.0), path.importance.m10, vec3(atCamera));
+    return ReflectanceMatrix(path.importance.m00, vec3(0.0), path.importance.m10, vec3(atCamera));
 }

@@ -5,44 +5,45 @@
 struct Shadow {
     bool pending;
     Segment segment;
-    float distance;          // to the emitter; its order if surfaces coincide with it
+    float distance;                // to the emitter; its order if surfaces coincide with it
     uint beforeOrder;
-    LightMatrix importance;  // W O f cos / pdf and what was crossed so far (kTransmittanceGeneral)
-    Light emission;          // of the emitter (kTransmittanceGeneral), otherwise the contribution if nothing is in between
-    uint scatterings;        // events on the whole path, for the statistics
+    ReflectanceMatrix importance;  // W O f cos / pdf and what was crossed so far (kTransparencyGeneral)
+    Radiance2 emission;            // of the emitter (kTransparencyGeneral), else the contribution if nothing is in between
+    uint scatterings;              // events on the whole path, for the statistics
 };
 
-void gather(inout Gathered gathered, Light light, uint scatterings) {
-    gather(gathered, light, scatterings, params.bounces, params.display);
+void addRadiance(inout SampleRadiance received, Radiance2 light, uint scatterings) {
+    addRadiance(received, light, scatterings, params.bounces, params.display);
 }
 
 // Collects what the surface emits, which may be nothing; weighted, because direct light is sampled at vertices, too.
-void collectEmission(inout Gathered gathered, Path path, SurfaceHit hit, LightMatrix w, float t, uint rank) {
+void collectEmission(inout SampleRadiance received, Path path, SurfaceHit hit, ReflectanceMatrix w, float t,
+                     uint rank) {
     bool emits = rank < params.emittingTriangles;
     Emitter emitter = fetchEmitter(emits ? rank : 0u);
     float pdf = emitterPdf(emitter, t * t, hit.cosine);
     float misWeight = path.scatterings > 0u ? balanceHeuristic(path.bsdfPdf, pdf) : 1.0;
     if (kDirectLight == kDirectLightClosedForm) misWeight = path.scatterings > 0u ? 0.0 : 1.0;
-    // Selected rather than branched on: a branch around gather() makes `global` 8 % slower on lavapipe.
+    // Selected rather than branched on: a branch around addRadiance() makes `global` 8 % slower on lavapipe.
     emitter.flags = emits ? emitter.flags : 0u;
-    Light collected = lightApply(w, emissionOn(emitter, hit.front));
-    gather(gathered, lightScale(collected, vec3(misWeight)), path.scatterings);
+    Radiance2 collected = matrixApply(w, emissionOn(emitter, hit.front));
+    addRadiance(received, scaled(collected, vec3(misWeight)), path.scatterings);
 }
 
 // `importance`: W O at the vertex.
-void connectToEmitter(inout Shadow shadow, inout Gathered gathered, SurfaceHit hit, LightMatrix importance, vec3 wo,
-                      uvec2 words, uint scatterings) {
+void connectToEmitter(inout Shadow shadow, inout SampleRadiance received, SurfaceHit hit, ReflectanceMatrix importance,
+                      vec3 wo, uvec2 words, uint scatterings) {
     EmitterSample light = sampleEmitter(params.emitterCount, hit.point.position, words);
     BsdfFrame frame = frameOf(hit.point);
     vec3 f = bsdfEvaluate(hit.material.bsdf, frame, wo, light.wi, kModeRadiance);
     // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf. No other strategy finds a delta.
     float otherPdf = light.delta ? 0.0 : bsdfPdf(hit.material.bsdf, frame, wo, light.wi, kModeRadiance);
     float weight = 1.0 / (light.pdf + otherPdf);
-    LightMatrix reflected = lightScale(importance, f * (bsdfCosine(frame, light.wi, kModeRadiance) * weight));
-    Light contribution = lightApply(reflected, light.emission);
+    ReflectanceMatrix reflected = scaled(importance, f * (bsdfCosine(frame, light.wi, kModeRadiance) * weight));
+    Radiance2 contribution = matrixApply(reflected, light.emission);
     bool contributes = light.distance > 0.0 && maxComponent(contribution.invisible + contribution.visible) > 0.0;
-    if (kTransmittance == kTransmittanceIdentity) {
-        if (contributes) gather(gathered, contribution, scatterings);
+    if (kTransparency == kTransparencyIdentity) {
+        if (contributes) addRadiance(received, contribution, scatterings);
     } else if (contributes) {
         shadow.pending = true;
         shadow.segment = leaveVertex(hit.point, light.wi);
@@ -54,7 +55,7 @@ void connectToEmitter(inout Shadow shadow, inout Gathered gathered, SurfaceHit h
             shadow.beforeOrder = orderOfSurface(light.emitter, dot(plane.normal, light.wi) < 0.0);
         }
         shadow.scatterings = scatterings;
-        if (kTransmittance == kTransmittanceGeneral) {
+        if (kTransparency == kTransparencyGeneral) {
             shadow.importance = reflected;
             shadow.emission = light.emission;
         } else {
@@ -64,24 +65,25 @@ void connectToEmitter(inout Shadow shadow, inout Gathered gathered, SurfaceHit h
 }
 
 // Light from all emitters on a diffuse vertex.
-void gatherClosedForm(inout Gathered gathered, SurfaceHit hit, LightMatrix importance, uint scatterings) {
-    Light total = irradianceFromEmitters(params.emitterCount, hit.point.position, hit.point.shadingNormal);
-    LightMatrix reflected = lightScale(importance, diffuseEvaluate(hit.material.bsdf));
-    gather(gathered, lightApply(reflected, total), scatterings);
+void addClosedForm(inout SampleRadiance received, SurfaceHit hit, ReflectanceMatrix importance, uint scatterings) {
+    Radiance2 total = irradianceFromEmitters(params.emitterCount, hit.point.position, hit.point.shadingNormal);
+    ReflectanceMatrix reflected = scaled(importance, diffuseEvaluate(hit.material.bsdf));
+    addRadiance(received, matrixApply(reflected, total), scatterings);
 }
 
 // The shadow ray has met a surface, or nothing more up to the emitter.
-void continueShadow(inout Shadow shadow, inout Gathered gathered, Traversal ray, bool found, uint material) {
-    if (kTransmittance == kTransmittanceGeneral && found) {
-        LightMatrix m = multiply(shadow.importance, transparentOf(material));
+void continueShadow(inout Shadow shadow, inout SampleRadiance received, Traversal ray, bool found, uint material) {
+    if (kTransparency == kTransparencyGeneral && found) {
+        ReflectanceMatrix m = multiply(shadow.importance, transparentOf(material));
         shadow.importance = m;
         crossSurface(shadow.segment, ray);
         shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
         return;
     }
     if (!found) {
-        bool general = kTransmittance == kTransmittanceGeneral;
-        gather(gathered, general ? lightApply(shadow.importance, shadow.emission) : shadow.emission, shadow.scatterings);
+        bool general = kTransparency == kTransparencyGeneral;
+        Radiance2 arriving = general ? matrixApply(shadow.importance, shadow.emission) : shadow.emission;
+        addRadiance(received, arriving, shadow.scatterings);
     }
     shadow.pending = false;
 }

@@ -1,6 +1,6 @@
 // The scene as the kernels of both integrators see it: buffers, parameters, and functions that fetch from them.
 #include "shaders/shared/bvh_layout.h"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 layout(local_size_x_id = kSpecWorkgroupSize) in;
 layout(constant_id = kSpecLeaveTraversal) const uint kLeaveTraversal = 4u;
@@ -32,12 +32,12 @@ uvec4 fetchEmitterTexel(uint index) { return imageLoad(emitterTexels, int(index)
 uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
 uvec4 fetchColourTexel(uint index) { return imageLoad(colourTexels, int(index)); }
 
-LightMatrix fromDevice(DeviceLightMatrix m) { return LightMatrix(m.m00, m.m01, m.m10, m.m11); }
-LightMatrix sceneOpaque() { return fromDevice(params.opaque); }
-LightMatrix sceneTransparent() { return fromDevice(params.transparent); }
+ReflectanceMatrix fromDevice(DeviceReflectanceMatrix m) { return ReflectanceMatrix(m.m00, m.m01, m.m10, m.m11); }
+ReflectanceMatrix sceneOpaque() { return fromDevice(params.opaque); }
+ReflectanceMatrix sceneTransparent() { return fromDevice(params.transparent); }
 
 // Length of a ray without an end point.
 const float kInfinity = 1e30;
 
 // Whether a ray visits the surfaces along it one by one, including coincident ones.
-const bool kOrdered = kTransmittance != kTransmittanceZero || kPlanes;
+const bool kOrdered = kTransparency != kTransparencyZero || kPlanes;

@@ -5,7 +5,7 @@
 
 #include "shaders/lib/bsdf/conductor.glsl"
 #include "shaders/lib/bsdf/diffuse.glsl"
-#include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/reflectance_matrix.glsl"
 
 layout(constant_id = kSpecLobes) const uint kLobes = 3u;
 

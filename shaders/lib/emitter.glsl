@@ -49,11 +49,11 @@ float emitterPdf(Emitter emitter, float distanceSquared, float cosAtEmitter) {
 }
 
 // Light from all emitters, nothing being in between: see irradianceFromTriangle.
-Light irradianceFromEmitters(uint emitterCount, vec3 point, vec3 normal) {
-    Light total = Light(vec3(0.0), vec3(0.0));
+Radiance2 irradianceFromEmitters(uint emitterCount, vec3 point, vec3 normal) {
+    Radiance2 total = Radiance2(vec3(0.0), vec3(0.0));
     for (uint i = 0u; i < emitterCount; i++) {
         Emitter emitter = fetchEmitter(i);
-        Light light = Light(vec3(0.0), vec3(0.0));
+        Radiance2 light = Radiance2(vec3(0.0), vec3(0.0));
         if (isPoint(emitter)) {
             light = irradianceFromPoint(emitter, point, normal);
         } else {
@@ -70,7 +70,7 @@ EmitterPoint pointOnEmitter(Emitter emitter, vec2 u) {
     return pointOnTriangleEmitter(emitter, u);
 }
 
-// A particle that leaves from this point.
+// A light path that leaves from this point.
 EmittedRay emitRay(Emitter emitter, EmitterPoint on, float side, vec2 u) {
     if (isPoint(emitter)) return emitFromPoint(emitter, u);
     return emitFromTriangle(emitter, on, side, u);
@@ -79,7 +79,7 @@ EmittedRay emitRay(Emitter emitter, EmitterPoint on, float side, vec2 u) {
 // The camera cannot see a point emitter.
 EmitterSeen seeEmitter(Emitter emitter, EmitterPoint on, vec3 toCamera) {
     EmitterSeen seen = seeTriangleEmitter(emitter, on, toCamera);
-    if (isPoint(emitter)) seen.intensity = Light(vec3(0.0), vec3(0.0));
+    if (isPoint(emitter)) seen.intensity = Radiance2(vec3(0.0), vec3(0.0));
     return seen;
 }
 

@@ -3,10 +3,10 @@
 #define DUOLUX_LIB_FILM_GLSL
 
 #include "shaders/lib/rng.glsl"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 // Larger radiance is treated as a numerical error.
-const float kLargestRadiance = 1e30;
+const float kLargestSample = 1e30;
 
 // Uniform numbers in [0, 1) for the stochastic rounding of a sample's channels.
 struct FilmRounding {

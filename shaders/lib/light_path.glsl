@@ -2,27 +2,27 @@
 #ifndef DUOLUX_LIB_LIGHT_PATH_GLSL
 #define DUOLUX_LIB_LIGHT_PATH_GLSL
 
-#include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/lib/surface.glsl"
-#include "shaders/shared/light_layout.h"
+#include "shaders/shared/light_tracer_layout.h"
 
-// A particle in flight.
+// A light path in flight.
 struct LightPath {
     uvec2 stream;      // number of the light path (high, low)
-    Light flux;        // on the segment, after all surfaces crossed so far; W
+    Radiance2 flux;        // on the segment, after all surfaces crossed so far; W
     float emitted;     // flux at the emitter, W: the reference of Russian roulette
     Segment segment;
     uint scatterings;  // events before the segment
     uint crossings;    // on the segment
     bool ended;
-    Light scattered;   // O L at the chosen vertex of the segment, times shadingAdjoint
+    Radiance2 scattered;   // O L at the chosen vertex of the segment, times shadingAdjoint
 };
 
 // Radiant intensity that leaves a vertex of a light path on the side of its normal, by emission or by scattering
-// (W sr^-1, because a particle carries flux in W). It is connected to the camera.
+// (W sr^-1, because a light path carries flux in W). It is connected to the camera.
 struct Outgoing {
     SurfacePoint point;
-    Light intensity;
+    Radiance2 intensity;
     uint scatterings;  // scattering events on the path
 };
 
@@ -31,7 +31,7 @@ struct Connection {
     bool pending;
     Segment segment;
     float distance;
-    Light light;        // contribution to the pixel if no further surface is crossed
+    Radiance2 light;        // contribution to the pixel if no further surface is crossed
     float roulette;     // uniform number of the connection's Russian roulette
     float survival;     // probability of having survived so far
     uint pixel;

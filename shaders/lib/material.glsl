@@ -3,7 +3,7 @@
 #define DUOLUX_LIB_MATERIAL_GLSL
 
 #include "shaders/lib/bsdf/bsdf_types.glsl"
-#include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/shared/material_layout.h"
 
 uvec4 fetchMaterialTexel(uint index);
@@ -19,14 +19,17 @@ Material fetchMaterial(uint index) {
     return Material(Bsdf(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.x), uintBitsToFloat(t1.y)), t0.w);
 }
 
-LightMatrix fetchMatrix(uint texel) {
-    return LightMatrix(uintBitsToFloat(fetchMaterialTexel(texel).xyz), uintBitsToFloat(fetchMaterialTexel(texel + 1u).xyz),
-                       uintBitsToFloat(fetchMaterialTexel(texel + 2u).xyz),
-                       uintBitsToFloat(fetchMaterialTexel(texel + 3u).xyz));
+ReflectanceMatrix fetchMatrix(uint texel) {
+    return ReflectanceMatrix(uintBitsToFloat(fetchMaterialTexel(texel).xyz),
+                             uintBitsToFloat(fetchMaterialTexel(texel + 1u).xyz),
+                             uintBitsToFloat(fetchMaterialTexel(texel + 2u).xyz),
+                             uintBitsToFloat(fetchMaterialTexel(texel + 3u).xyz));
 }
 
-LightMatrix fetchOpaque(uint index) { return fetchMatrix(index * kMaterialTexels + 2u); }
-LightMatrix fetchTransparent(uint index) { return fetchMatrix(index * kMaterialTexels + 6u); }
+ReflectanceMatrix fetchOpaque(uint index) { return fetchMatrix(index * kMaterialTexels + kMaterialOpaqueTexel); }
+ReflectanceMatrix fetchTransparent(uint index) {
+    return fetchMatrix(index * kMaterialTexels + kMaterialTransparentTexel);
+}
 
 bool materialScatters(Material material, bool front) { return front || (material.flags & kMaterialTwoSided) != 0u; }
 

@@ -2,7 +2,7 @@
 #ifndef DUOLUX_LIB_NORMALS_GLSL
 #define DUOLUX_LIB_NORMALS_GLSL
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 uvec4 fetchNormalTexel(uint index);
 

@@ -3,27 +3,27 @@
 #define DUOLUX_LIB_PIXEL_SUMS_GLSL
 
 #include "shaders/lib/film.glsl"
-#include "shaders/lib/light_matrix.glsl"
-#include "shaders/shared/path_layout.h"
+#include "shaders/lib/reflectance_matrix.glsl"
+#include "shaders/shared/path_tracer_layout.h"
 
-struct Gathered {
-    Light light;
+struct SampleRadiance {
+    Radiance2 radiance;
     float lastBounce;
     float previousBounce;
 };
 
 // Adds the contribution of a path with `scatterings` scattering events. The displayed radiance (by the row `display`)
 // of paths with the largest number of events, and of those with one fewer, is also summed separately.
-void gather(inout Gathered g, Light light, uint scatterings, uint bounces, vec2 display) {
-    g.light.invisible += light.invisible;
-    g.light.visible += light.visible;
+void addRadiance(inout SampleRadiance g, Radiance2 light, uint scatterings, uint bounces, vec2 display) {
+    g.radiance.invisible += light.invisible;
+    g.radiance.visible += light.visible;
     vec3 displayed = display.x * light.invisible + display.y * light.visible;
     float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
     g.lastBounce += scatterings == bounces ? mean : 0.0;
     g.previousBounce += scatterings + 1u == bounces ? mean : 0.0;
 }
 
-Gathered nothingGathered() { return Gathered(Light(vec3(0.0), vec3(0.0)), 0.0, 0.0); }
+SampleRadiance noRadiance() { return SampleRadiance(Radiance2(vec3(0.0), vec3(0.0)), 0.0, 0.0); }
 
 // The sums of a lane over the samples of a pixel.
 struct PixelSums {
@@ -41,14 +41,14 @@ struct PixelSums {
 
 PixelSums emptyPixelSums() { return PixelSums(filmZero(), filmZero(), 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0); }
 
-void addSample(inout PixelSums sums, Gathered gathered, float inverseQuantum, FilmRounding u) {
-    vec3 total = gathered.light.invisible + gathered.light.visible;
+void addSample(inout PixelSums sums, SampleRadiance received, float inverseQuantum, FilmRounding u) {
+    vec3 total = received.radiance.invisible + received.radiance.visible;
     float sum = total.x + total.y + total.z;
-    if (sum < kLargestRadiance) {
-        sums.invisible = filmAccumulate(sums.invisible, gathered.light.invisible, inverseQuantum, u.invisible);
-        sums.visible = filmAccumulate(sums.visible, gathered.light.visible, inverseQuantum, u.visible);
-        sums.lastBounce += gathered.lastBounce;
-        sums.previousBounce += gathered.previousBounce;
+    if (sum < kLargestSample) {
+        sums.invisible = filmAccumulate(sums.invisible, received.radiance.invisible, inverseQuantum, u.invisible);
+        sums.visible = filmAccumulate(sums.visible, received.radiance.visible, inverseQuantum, u.visible);
+        sums.lastBounce += received.lastBounce;
+        sums.previousBounce += received.previousBounce;
         sums.clamped += sum * inverseQuantum >= kFilmLargest ? 1u : 0u;
     } else {
         sums.nonFinite += 1u;

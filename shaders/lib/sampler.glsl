@@ -4,7 +4,7 @@
 
 #include "shaders/lib/rng.glsl"
 #include "shaders/lib/sobol.glsl"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 // The purpose of a number or a pair of numbers. Scattering events, crossings and purpose together are the dimension,
 // which has room for more purposes (a lens, the wavelength).

@@ -72,7 +72,7 @@ Segment leaveSurface(SurfacePoint point, vec3 direction, bool through) {
 }
 
 // With a shading normal Ns, the path tracer uses |wi . Ns| in place of |wi . Ng| (wi points to the light). The adjoint
-// is not obtained by exchanging the directions: the light tracer scatters a particle that arrives from wi by f |wi .
+// is not obtained by exchanging the directions: the light tracer scatters a light path that arrives from wi by f |wi .
 // Ns| / |wi . Ng| and the cosine between wo and the geometric normal (Veach, "Robust Monte Carlo Methods for Light
 // Transport Simulation", 1997, section 5.3). Zero where wi is on different sides of the two normals.
 float shadingAdjoint(SurfacePoint point, vec3 wi) {

@@ -4,11 +4,11 @@
 #ifndef DUOLUX_LIB_TRANSPORT_GLSL
 #define DUOLUX_LIB_TRANSPORT_GLSL
 
-#include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/lib/material.glsl"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
-layout(constant_id = kSpecTransmittance) const uint kTransmittance = 2u;
+layout(constant_id = kSpecTransparency) const uint kTransparency = 2u;
 layout(constant_id = kSpecSecondColumn) const bool kSecondColumn = true;
 layout(constant_id = kSpecInvisibleScatters) const bool kInvisibleScatters = true;
 layout(constant_id = kSpecVisibleScatters) const bool kVisibleScatters = true;
@@ -16,29 +16,29 @@ layout(constant_id = kSpecInvisibleCrosses) const bool kInvisibleCrosses = true;
 layout(constant_id = kSpecVisibleCrosses) const bool kVisibleCrosses = true;
 layout(constant_id = kSpecOneReflectance) const bool kOneReflectance = false;
 
-LightMatrix sceneOpaque();
-LightMatrix sceneTransparent();
+ReflectanceMatrix sceneOpaque();
+ReflectanceMatrix sceneTransparent();
 
-LightMatrix opaqueOf(uint material) {
+ReflectanceMatrix opaqueOf(uint material) {
     return kOneReflectance ? sceneOpaque() : fetchOpaque(material);
 }
 
-LightMatrix transparentOf(uint material) {
+ReflectanceMatrix transparentOf(uint material) {
     return kOneReflectance ? sceneTransparent() : fetchTransparent(material);
 }
 
-LightMatrix multiply(LightMatrix a, LightMatrix b) {
-    return kSecondColumn ? lightMultiply(a, b) : lightMultiplyFirstColumn(a, b);
+ReflectanceMatrix multiply(ReflectanceMatrix a, ReflectanceMatrix b) {
+    return kSecondColumn ? matrixMultiply(a, b) : matrixMultiplyFirstColumn(a, b);
 }
 
 // Whether any surface of the scene can scatter, or transmit, some of the importance of a path; known without reading
 // the surface's material.
-bool canScatter(LightMatrix w) {
+bool canScatter(ReflectanceMatrix w) {
     return (kInvisibleScatters && maxComponent(w.m00 + w.m10) > 0.0) ||
            (kVisibleScatters && maxComponent(w.m01 + w.m11) > 0.0);
 }
 
-bool canCross(LightMatrix w) {
+bool canCross(ReflectanceMatrix w) {
     return (kInvisibleCrosses && maxComponent(w.m00 + w.m10) > 0.0) ||
            (kVisibleCrosses && maxComponent(w.m01 + w.m11) > 0.0);
 }

@@ -3,7 +3,7 @@
 #ifndef DUOLUX_LIB_VERTEX_COLOUR_GLSL
 #define DUOLUX_LIB_VERTEX_COLOUR_GLSL
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 uvec4 fetchColourTexel(uint index);
 

@@ -8,7 +8,8 @@
 
 DUOLUX_BEGIN
 
-DUOLUX_CONST uint kEmitterTexels = 6u;  // of 4 x uint32
+DUOLUX_CONST uint kEmitterTexels = 6u;      // of 4 x uint32
+DUOLUX_CONST uint kEmitterAliasTexel = 5u;  // the texel that holds the entry of the alias table
 
 // DeviceEmitter.flags
 DUOLUX_CONST uint kEmitterFront = 1u;       // emits on the front side
@@ -39,6 +40,7 @@ struct DeviceEmitter {
     uint unused2[2];
 };
 static_assert(sizeof(DeviceEmitter) == kEmitterTexels * 16);
+static_assert(offsetof(DeviceEmitter, threshold) == kEmitterAliasTexel * 16);
 #endif
 
 DUOLUX_END

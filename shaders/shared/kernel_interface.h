@@ -32,8 +32,8 @@ DUOLUX_CONST uint kSpecVoteByShuffle = 4u;   // lanes of a subgroup of 8 vote by
 DUOLUX_CONST uint kSpecPlanes = 5u;          // distances are computed from stored planes
 DUOLUX_CONST uint kSpecSmoothNormals = 6u;   // some triangles have shading normals
 DUOLUX_CONST uint kSpecVertexColours = 7u;   // colours of vertices scale those of materials
-DUOLUX_CONST uint kSpecTransmittance = 8u;   // one of kTransmittance...
-DUOLUX_CONST uint kSpecCameraTransmittance = 9u;  // one of kTransmittance..., for connections to the camera
+DUOLUX_CONST uint kSpecTransparency = 8u;    // one of kTransparency...
+DUOLUX_CONST uint kSpecCameraTransparency = 9u;  // one of kTransparency..., for connections to the camera
 DUOLUX_CONST uint kSpecSecondColumn =
     10u;  // some O or T has m01 or m11: visible light scatters or is transmitted
 DUOLUX_CONST uint kSpecInvisibleScatters =

@@ -7,6 +7,9 @@
 DUOLUX_BEGIN
 
 DUOLUX_CONST uint kMaterialTexels = 10u;  // of 4 x uint32
+// The first of the texels that hold a matrix.
+DUOLUX_CONST uint kMaterialOpaqueTexel = 2u;
+DUOLUX_CONST uint kMaterialTransparentTexel = 6u;
 
 DUOLUX_CONST uint kMaterialTwoSided = 1u;  // f_opaque acts on both sides
 
@@ -28,7 +31,9 @@ struct DeviceMaterial {
     vec4 opaque[4];  // m00 m01 m10 m11 in xyz
     vec4 transparent[4];
 };
-static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16 && offsetof(DeviceMaterial, opaque) == 32);
+static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16);
+static_assert(offsetof(DeviceMaterial, opaque) == kMaterialOpaqueTexel * 16);
+static_assert(offsetof(DeviceMaterial, transparent) == kMaterialTransparentTexel * 16);
 #endif
 
 DUOLUX_END

@@ -2,7 +2,7 @@
 #ifndef DUOLUX_SHADERS_SHARED_TRACE_LAYOUT_H
 #define DUOLUX_SHADERS_SHARED_TRACE_LAYOUT_H
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 DUOLUX_BEGIN
 

@@ -78,7 +78,7 @@ TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {
     }
     EXPECT_THAT(names, testing::ElementsAre("primary", "diffuse", "shadow", "crossings"));
     for (const TuningChoice& tuning : allTunings(device().info())) {
-        const DeviceScene deviceScene = uploadScene(device(), scene, Integrator::kPath, tuning);
+        const DeviceScene deviceScene = uploadScene(device(), scene, Integrator::kPathTracer, tuning);
         for (const RaySet& set : sets) {
             TraceKernel kernel(device(), deviceScene, set.mode, set.rays);
             kernel.run(2);
@@ -109,7 +109,7 @@ TEST_P(RaySets, CoincidentSurfacesAreAllMet) {
     ASSERT_EQ(crossings.mode, shared::kTraceAllCrossings);
     for (const TuningChoice& tuning : allTunings(device().info())) {
         const auto trace = [&](const LoadedScene& scene) {
-            const DeviceScene deviceScene = uploadScene(device(), scene, Integrator::kPath, tuning);
+            const DeviceScene deviceScene = uploadScene(device(), scene, Integrator::kPathTracer, tuning);
             TraceKernel kernel(device(), deviceScene, crossings.mode, crossings.rays);
             kernel.run();
             return kernel.hits();

@@ -87,7 +87,7 @@ inline ChannelMatrix identityPerChannel() {
     return {Matrix2::identity(), Matrix2::identity(), Matrix2::identity()};
 }
 
-inline ChannelMatrix channelsOf(const LightMatrix& m) {
+inline ChannelMatrix channelsOf(const ReflectanceMatrix& m) {
     ChannelMatrix result;
     for (int c = 0; c < 3; ++c) {
         result[static_cast<std::size_t>(c)] = {static_cast<double>(m.m00[c]), static_cast<double>(m.m01[c]),

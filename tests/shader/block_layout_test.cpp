@@ -2,7 +2,7 @@
 
 #include "host/vk/commands.h"
 #include "host/vk/kernel.h"
-#include "shaders/shared/light_layout.h"
+#include "shaders/shared/light_tracer_layout.h"
 #include "shaders/shared/trace_layout.h"
 #include "tests/shader/harness/compiler.h"
 #include "tests/shader/layout_words.h"
@@ -23,7 +23,7 @@ std::vector<std::uint32_t> run(const std::string& declarations, const std::strin
     const std::string glsl =
         std::string(kernelHeader()) +
         "layout(local_size_x = 1) in;\n#include \"shaders/shared/bvh_layout.h\"\n"
-        "#include \"shaders/shared/light_layout.h\"\n#include \"shaders/shared/trace_layout.h\"\n" +
+        "#include \"shaders/shared/light_tracer_layout.h\"\n#include \"shaders/shared/trace_layout.h\"\n" +
         "layout(binding = 1, scalar) buffer Words { uint words[]; };\n" + declarations + "\nvoid main() {\n" +
         statements + "}\n";
     const Buffer output = Buffer::readback(device(), words * sizeof(std::uint32_t), "words");
@@ -130,12 +130,12 @@ void expectReturnsByStorage() {
 
 TEST(BlockLayout, UniformParametersArriveFieldByField) {
     expectArrivesByUniform<shared::PathParams>();
-    expectArrivesByUniform<shared::DeviceLightMatrix>();
+    expectArrivesByUniform<shared::DeviceReflectanceMatrix>();
 }
 
 TEST(BlockLayout, PushedParametersArriveFieldByField) {
-    expectArrivesByPush<shared::DispatchParams>();
-    expectArrivesByPush<shared::LightDispatch>();
+    expectArrivesByPush<shared::PathTracerDispatch>();
+    expectArrivesByPush<shared::LightTracerDispatch>();
     expectArrivesByPush<shared::TraceDispatch>();
 }
 

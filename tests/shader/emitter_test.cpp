@@ -14,7 +14,7 @@
 #include "tests/support/statistics.h"
 
 // Points on emitters: the probability of each emitter, the distribution of points on it, and the flux of a
-// particle.
+// light path.
 
 namespace duolux::test {
 namespace {
@@ -261,8 +261,8 @@ TEST(ChooseEmitter, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
     }
 }
 
-// Every particle carries the power of the whole scene, in the colours of its emitter: because points are
-// sampled by power, the sum of the channels is the same for all particles, and the mean of each channel is
+// Every light path carries the power of the whole scene, in the colours of its emitter: because points are
+// sampled by power, the sum of the channels is the same for all light paths, and the mean of each channel is
 // its power (Student's test with the sample's variance; 3 tests, level 1e-4).
 TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
     const Scene scene = randomEmitters(300, 20);

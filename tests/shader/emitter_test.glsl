@@ -47,7 +47,7 @@ TEST_N(DensityIsFiniteAlongTheEmitter, 1) {
     EXPECT_ULP(pdfAreaToSolidAngle(1.0, 1.0, 2e-12), 0.5e12, 1.0);
 }
 
-// For a single emitter of area A, every particle carries pi E A for each side.
+// For a single emitter of area A, every light path carries pi E A for each side.
 TEST(FluxOfOneEmitterIsItsPower) {
     float area = randomScale(-20.0, 20.0);
     EXPECT_ULP(emittedFlux(1.0 / area, 1.0), 3.14159265358979 * area, 8.0);
@@ -57,14 +57,14 @@ TEST(FluxOfOneEmitterIsItsPower) {
 Emitter triangleEmitter(uint flags) {
     vec3 a = randomVec3(-1.0, 1.0);
     vec3 b = randomVec3(-1.0, 1.0);
-    return Emitter(a, b, randomVec3(-1.0, 1.0), flags, 1e-6, 0u, Light(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 7.0);
+    return Emitter(a, b, randomVec3(-1.0, 1.0), flags, 1e-6, 0u, Radiance2(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 7.0);
 }
 
 // All four combinations of sides.
 TEST_N(EmissionIsThatOfTheSideWhoseFlagIsSet, 4) {
     uint flags = testIndex();
-    Light toFront = emissionOn(triangleEmitter(flags), true);
-    Light toBack = emissionOn(triangleEmitter(flags), false);
+    Radiance2 toFront = emissionOn(triangleEmitter(flags), true);
+    Radiance2 toBack = emissionOn(triangleEmitter(flags), false);
     EXPECT_EQ(toFront.invisible, (flags & kEmitterFront) != 0u ? vec3(1.0, 2.0, 3.0) : vec3(0.0));
     EXPECT_EQ(toFront.visible, (flags & kEmitterFront) != 0u ? vec3(4.0, 5.0, 6.0) : vec3(0.0));
     EXPECT_EQ(toBack.invisible, (flags & kEmitterBack) != 0u ? vec3(1.0, 2.0, 3.0) : vec3(0.0));
@@ -87,7 +87,7 @@ TEST(SampleIsAPointOfTheEmitter) {
     EXPECT_EQ(s.coincident, kNoTriangle);
 }
 
-// The particle leaves on the side that `side` chooses. Its flux is that of all emitting sides.
+// The light path leaves on the side that `side` chooses. Its flux is that of all emitting sides.
 TEST(EmittedRayLeavesOnItsSide) {
     bool both = (randomUint() & 1u) == 0u;
     Emitter emitter = triangleEmitter(both ? kEmitterFront | kEmitterBack : kEmitterFront);
@@ -102,7 +102,7 @@ TEST(EmittedRayLeavesOnItsSide) {
     EXPECT_NEAR(ray.flux.visible, vec3(4.0, 5.0, 6.0) * (3.14159265 * (both ? 2.0 : 1.0) / 7.0), 2e-6);
 }
 
-// The camera sees the side that faces it, whichever side the particle leaves from.
+// The camera sees the side that faces it, whichever side the light path leaves from.
 TEST(CameraSeesTheSideThatFacesIt) {
     Emitter emitter = triangleEmitter(randomUint() & 3u);
     EmitterPoint on = pointOnTriangleEmitter(emitter, randomVec2());
@@ -114,7 +114,7 @@ TEST(CameraSeesTheSideThatFacesIt) {
 
 Emitter pointEmitter() {
     return Emitter(randomVec3(-1.0, 1.0), vec3(0.0), vec3(0.0), kEmitterPoint, 0.0, 0u,
-                   Light(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 0.25);
+                   Radiance2(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 0.25);
 }
 
 // Inverse square of the distance, from a single direction.
@@ -129,12 +129,12 @@ TEST(PointEmitterLightsByInverseSquare) {
     EXPECT_TRUE(s.delta);
     EXPECT_EQ(s.pdf, 0.25);
     EXPECT_EQ(s.emitter, 3u);
-    Light whole = irradianceFromPoint(emitter, receiver, normal);
+    Radiance2 whole = irradianceFromPoint(emitter, receiver, normal);
     vec3 expected = s.emission.invisible * max(dot(normal, s.wi), 0.0);
     EXPECT_NEAR(whole.invisible, expected, 1e-5 * maxComponent(s.emission.invisible));
 }
 
-// A particle carries 4 pi times the intensity over the probability of choosing the emitter, and starts at the point.
+// A light path carries 4 pi times the intensity over the probability of choosing the emitter, and starts at the point.
 TEST(PointEmitterSendsItsPower) {
     Emitter emitter = pointEmitter();
     EmittedRay ray = emitFromPoint(emitter, randomVec2());

@@ -15,7 +15,7 @@ TEST_N(BackScattersWhereTheMaterialIsTwoSided, 8) {
 
 TEST_N(MatricesAreFourTexelsInARow, 64) {
     uint texel = testIndex();
-    LightMatrix m = fetchMatrix(texel);
+    ReflectanceMatrix m = fetchMatrix(texel);
     vec3 first = vec3(1.0, 2.0, 3.0) + float(16u * texel);
     EXPECT_EQ(m.m00, first);
     EXPECT_EQ(m.m01, first + 16.0);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/oracles.h"
 

@@ -14,9 +14,9 @@ namespace duolux::test {
 namespace {
 
 using mirror::single::FilmSum;
-using mirror::single::Gathered;
-using mirror::single::Light;
 using mirror::single::PixelSums;
+using mirror::single::Radiance2;
+using mirror::single::SampleRadiance;
 
 const ShaderLibrary& pixelSums() {
     static const ShaderLibrary library("shaders/lib/pixel_sums.glsl");
@@ -29,7 +29,9 @@ class PixelSumsOracles : public testing::Test {
     float number() { return uniform_(engine_); }
     glm::vec3 vector() { return {number(), number(), number()}; }
     FilmSum filmSum() { return {{word(), word()}, {word(), word()}, {word(), word()}}; }
-    Gathered gathered(float bright) { return {{bright * vector(), bright * vector()}, number(), number()}; }
+    SampleRadiance received(float bright) {
+        return {{bright * vector(), bright * vector()}, number(), number()};
+    }
     PixelSums sums() {
         return {filmSum(), filmSum(), word(), word(), word(), word(), word(), word(), number(), number()};
     }
@@ -41,42 +43,43 @@ class PixelSumsOracles : public testing::Test {
 constexpr Budget kExact{0, 0};
 
 TEST_F(PixelSumsOracles, Gather) {
-    std::vector<Gathered> before;
-    std::vector<Light> lights;
+    std::vector<SampleRadiance> before;
+    std::vector<Radiance2> lights;
     std::vector<glm::uvec2> scatterings;  // of the path, and allowed
     std::vector<glm::vec2> display;
     for (int i = 0; i < 4096; ++i) {
-        before.push_back(gathered(1.0f));
+        before.push_back(received(1.0f));
         lights.push_back({vector(), vector()});
         scatterings.emplace_back(word() % 4, word() % 4);
         display.emplace_back(number(), number());
     }
-    const auto after = pixelSums().evaluate<Gathered>(
-        "Gathered g = x0; gather(g, x1, x2.x, x2.y, x3); result = g;", before, lights, scatterings, display);
+    const auto after = pixelSums().evaluate<SampleRadiance>(
+        "SampleRadiance g = x0; addRadiance(g, x1, x2.x, x2.y, x3); result = g;", before, lights, scatterings,
+        display);
     // A sum of seven terms of about 1.
     EXPECT_WITHIN_ORACLES(
-        "gather", after, Budget{4, 5e-7},
-        [](Gathered g, const auto& l, const auto& s, const auto& d) {
-            mirror::single::gather(g, l, s.x, s.y, d);
+        "addRadiance", after, Budget{4, 5e-7},
+        [](SampleRadiance g, const auto& l, const auto& s, const auto& d) {
+            mirror::single::addRadiance(g, l, s.x, s.y, d);
             return g;
         },
-        [](mirror::twice::Gathered g, const auto& l, const auto& s, const auto& d) {
-            mirror::twice::gather(g, l, s.x, s.y, d);
+        [](mirror::twice::SampleRadiance g, const auto& l, const auto& s, const auto& d) {
+            mirror::twice::addRadiance(g, l, s.x, s.y, d);
             return g;
         },
         before, lights, scatterings, display);
-    EXPECT_EQ(numbers(pixelSums().call<Gathered>("nothingGathered")[0]),
-              numbers(mirror::single::nothingGathered()));
+    EXPECT_EQ(numbers(pixelSums().call<SampleRadiance>("noRadiance")[0]),
+              numbers(mirror::single::noRadiance()));
 }
 
 // Numbers of all sizes, except sums of six near 2^58 quanta or 1e30, where the precision decides.
 TEST_F(PixelSumsOracles, Samples) {
     std::vector<PixelSums> before;
-    std::vector<Gathered> samples;
+    std::vector<SampleRadiance> samples;
     for (int i = 0; i < 4096; ++i) {
         before.push_back(sums());
         const float bright = std::exp2(static_cast<float>(i % 110));
-        samples.push_back(i % 16 == 15 ? gathered(i % 32 == 31 ? NAN : INFINITY) : gathered(bright));
+        samples.push_back(i % 16 == 15 ? received(i % 32 == 31 ? NAN : INFINITY) : received(bright));
     }
     const auto after = pixelSums().evaluate<PixelSums>(
         "PixelSums s = x0; addSample(s, x1, 1024.0, FilmRounding(vec3(0.25), vec3(0.75))); result = s;",

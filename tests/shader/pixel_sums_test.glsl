@@ -9,20 +9,20 @@ TEST(GatheringSumsTheLastBouncesApart) {
     uint bounces = randomUint() % 4u;
     uint scatterings = randomUint() % (bounces + 1u);
     vec2 display = floor(4.0 * randomVec2());
-    Light light = Light(3.0 * randomIntegers(), 3.0 * randomIntegers());
-    Light before = Light(randomIntegers(), randomIntegers());
-    Gathered g = Gathered(before, 100.0, 200.0);
-    gather(g, light, scatterings, bounces, display);
+    Radiance2 light = Radiance2(3.0 * randomIntegers(), 3.0 * randomIntegers());
+    Radiance2 before = Radiance2(randomIntegers(), randomIntegers());
+    SampleRadiance g = SampleRadiance(before, 100.0, 200.0);
+    addRadiance(g, light, scatterings, bounces, display);
     float mean = dot(vec3(1.0), display.x * light.invisible + display.y * light.visible) / 3.0;
-    EXPECT_EQ(g.light.invisible, before.invisible + light.invisible);
-    EXPECT_EQ(g.light.visible, before.visible + light.visible);
+    EXPECT_EQ(g.radiance.invisible, before.invisible + light.invisible);
+    EXPECT_EQ(g.radiance.visible, before.visible + light.visible);
     EXPECT_NEAR(g.lastBounce, 100.0 + (scatterings == bounces ? mean : 0.0), 1e-4);
     EXPECT_NEAR(g.previousBounce, 200.0 + (int(scatterings) == int(bounces) - 1 ? mean : 0.0), 1e-4);
 }
 
 TEST_N(NothingIsGatheredAtFirst, 1) {
-    Gathered g = nothingGathered();
-    EXPECT_EQ(g.light.invisible + g.light.visible, vec3(0.0));
+    SampleRadiance g = noRadiance();
+    EXPECT_EQ(g.radiance.invisible + g.radiance.visible, vec3(0.0));
     EXPECT_EQ(vec2(g.lastBounce, g.previousBounce), vec2(0.0));
 }
 
@@ -39,9 +39,9 @@ void expectRays(PixelSums sums) {
 }
 
 TEST(SampleIsAddedToItsSums) {
-    Light light = Light(randomIntegers(), randomIntegers());
+    Radiance2 light = Radiance2(randomIntegers(), randomIntegers());
     PixelSums sums = someSums();
-    addSample(sums, Gathered(light, 0.5, 0.25), 4.0, someRounding());
+    addSample(sums, SampleRadiance(light, 0.5, 0.25), 4.0, someRounding());
     uvec3 invisible = uvec3(1u, 2u, 3u) + 4u * uvec3(light.invisible);
     uvec3 visible = uvec3(4u, 5u, 6u) + 4u * uvec3(light.visible);
     EXPECT_EQ(uvec3(sums.invisible.r.x, sums.invisible.g.x, sums.invisible.b.x), invisible);
@@ -56,11 +56,11 @@ TEST(SampleIsAddedToItsSums) {
 TEST_N(SampleThatIsNotANumberIsDropped, 24) {
     float wrong[4] = float[4](uintBitsToFloat(0x7fc00000u), uintBitsToFloat(0x7f800000u), 2e30, 1.01e30);
     uint channel = testIndex() % 3u;
-    Light light = Light(vec3(1.0), vec3(1.0));
+    Radiance2 light = Radiance2(vec3(1.0), vec3(1.0));
     if (testIndex() / 3u % 2u == 0u) light.invisible[channel] = wrong[testIndex() / 6u];
     else light.visible[channel] = wrong[testIndex() / 6u];
     PixelSums sums = someSums();
-    addSample(sums, Gathered(light, 0.5, 0.25), 4.0, someRounding());
+    addSample(sums, SampleRadiance(light, 0.5, 0.25), 4.0, someRounding());
     EXPECT_EQ(uvec3(sums.invisible.r.x, sums.invisible.g.x, sums.invisible.b.x), uvec3(1u, 2u, 3u));
     EXPECT_EQ(uvec3(sums.visible.r.x, sums.visible.g.x, sums.visible.b.x), uvec3(4u, 5u, 6u));
     EXPECT_EQ(vec2(sums.lastBounce, sums.previousBounce), vec2(13.0, 14.0));
@@ -72,14 +72,14 @@ TEST_N(SampleThatIsNotANumberIsDropped, 24) {
 // counted.
 TEST_N(BrightSamplesAreClampedAndCounted, 1) {
     PixelSums sums = someSums();
-    addSample(sums, Gathered(Light(vec3(0.9e30, 0.0, 1.0), vec3(1.0)), 0.0, 0.0), 1.0, someRounding());
+    addSample(sums, SampleRadiance(Radiance2(vec3(0.9e30, 0.0, 1.0), vec3(1.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(uvec2(sums.nonFinite, sums.clamped), uvec2(7u, 9u));
     EXPECT_EQ(uvec4(sums.invisible.r, sums.invisible.b), uvec4(1u, 1u << 26u, 4u, 0u));
-    addSample(sums, Gathered(Light(vec3(kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
+    addSample(sums, SampleRadiance(Radiance2(vec3(kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(sums.clamped, 10u);
-    addSample(sums, Gathered(Light(vec3(0.99 * kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
+    addSample(sums, SampleRadiance(Radiance2(vec3(0.99 * kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(sums.clamped, 10u);
-    addSample(sums, Gathered(Light(vec3(0.0), vec3(0.0, 0.0, 0.01 * kFilmLargest)), 0.0, 0.0), 100.0, someRounding());
+    addSample(sums, SampleRadiance(Radiance2(vec3(0.0), vec3(0.0, 0.0, 0.01 * kFilmLargest)), 0.0, 0.0), 100.0, someRounding());
     EXPECT_EQ(uvec2(sums.nonFinite, sums.clamped), uvec2(7u, 11u));
 }
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "shaders/shared/bvh_layout.h"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 #include "tests/shader/layout_words.h"
 #include "tests/shader/mirror_types.h"
 
@@ -74,14 +74,14 @@ std::vector<std::uint32_t> recordIndices() {
 }
 
 TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
-    using mirror::single::LightMatrix;
     using mirror::single::Material;
+    using mirror::single::ReflectanceMatrix;
     const auto records = sentinels<shared::DeviceMaterial>(kRecords);
     ShaderLibrary library("shaders/lib/material.glsl");
     library.texels("fetchMaterialTexel", std::span(std::as_const(records)));
     const auto materials = library.call<Material>("fetchMaterial", recordIndices());
-    const auto opaque = library.call<LightMatrix>("fetchOpaque", recordIndices());
-    const auto transparent = library.call<LightMatrix>("fetchTransparent", recordIndices());
+    const auto opaque = library.call<ReflectanceMatrix>("fetchOpaque", recordIndices());
+    const auto transparent = library.call<ReflectanceMatrix>("fetchTransparent", recordIndices());
     for (std::size_t i = 0; i < kRecords; ++i) {
         SentinelRecord<shared::DeviceMaterial> record(i);
         EXPECT_EQ(numbers(materials[i]), record.ofStructure("Material"));

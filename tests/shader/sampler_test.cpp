@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 #include "tests/shader/harness/census.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/oracles.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "shaders/shared/bvh_layout.h"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/mirror_types.h"
 #include "tests/shader/oracles.h"

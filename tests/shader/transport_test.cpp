@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 #include "tests/reference/matrix2.h"
 #include "tests/shader/mirror_types.h"
 #include "tests/support/scene_builder.h"
@@ -17,7 +17,7 @@ namespace duolux::test {
 namespace {
 
 using mirror::single::Material;
-using Matrix = mirror::single::LightMatrix;
+using Matrix = mirror::single::ReflectanceMatrix;
 
 constexpr std::size_t kMaterials = 5;
 
@@ -46,8 +46,10 @@ ShaderLibrary transport() {
     ShaderLibrary library("shaders/lib/transport.glsl");
     library.texels("fetchMaterialTexel", std::span(records));
     library.define(
-        "LightMatrix sceneOpaque() { return LightMatrix(vec3(1.5), vec3(2.5), vec3(3.5), vec3(4.5)); }\n"
-        "LightMatrix sceneTransparent() { return LightMatrix(vec3(5.5), vec3(6.5), vec3(7.5), vec3(8.5)); }");
+        "ReflectanceMatrix sceneOpaque() { return ReflectanceMatrix(vec3(1.5), vec3(2.5), vec3(3.5), "
+        "vec3(4.5)); }\n"
+        "ReflectanceMatrix sceneTransparent() { return ReflectanceMatrix(vec3(5.5), vec3(6.5), vec3(7.5), "
+        "vec3(8.5)); }");
     return library;
 }
 
@@ -62,9 +64,9 @@ Matrix matrixOf(const glm::vec4 (&entries)[4]) {
 TEST(Transport, ConstantsAreTheHosts) {
     ShaderLibrary library = transport();
     for (const std::uint32_t kind :
-         {shared::kTransmittanceZero, shared::kTransmittanceIdentity, shared::kTransmittanceGeneral}) {
-        library.constant(shared::kSpecTransmittance, kind);
-        EXPECT_EQ(library.evaluate<std::uint32_t>("result = kTransmittance;").at(0), kind);
+         {shared::kTransparencyZero, shared::kTransparencyIdentity, shared::kTransparencyGeneral}) {
+        library.constant(shared::kSpecTransparency, kind);
+        EXPECT_EQ(library.evaluate<std::uint32_t>("result = kTransparency;").at(0), kind);
     }
 }
 
@@ -179,7 +181,7 @@ TEST(Transport, CanScatterAndCrossExactlyWhereSomethingMayBeLeft) {
 }
 
 /// A scene with these matrices on its one material.
-Scene sceneOf(const LightMatrix& opaque, const LightMatrix& transparent) {
+Scene sceneOf(const ReflectanceMatrix& opaque, const ReflectanceMatrix& transparent) {
     SceneBuilder builder;
     builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, builder.add({}));
     builder.scene.reflectance = {opaque, transparent};
@@ -191,14 +193,14 @@ Scene sceneOf(const LightMatrix& opaque, const LightMatrix& transparent) {
 TEST(Transport, ConstantsOfAnySceneLoseNoImportance) {
     const std::vector<Matrix> ws = importances();
     for (int pattern = 0; pattern < 16; ++pattern) {
-        LightMatrix block;
+        ReflectanceMatrix block;
         for (int e = 0; e < 4; ++e) {
             glm::vec3& value = e == 0 ? block.m00 : e == 1 ? block.m01 : e == 2 ? block.m10 : block.m11;
             value[(pattern + e) % 3] = (pattern >> e & 1) != 0 ? 1e-3f : 0.0f;
         }
         for (const bool isOpaque : {true, false}) {
-            const LightMatrix opaque = isOpaque ? block : LightMatrix{};
-            const LightMatrix transparent = isOpaque ? LightMatrix{} : block;
+            const ReflectanceMatrix opaque = isOpaque ? block : ReflectanceMatrix{};
+            const ReflectanceMatrix transparent = isOpaque ? ReflectanceMatrix{} : block;
             const TransportTraits traits = analyseTransport(sceneOf(opaque, transparent));
             ShaderLibrary library = transport();
             library.constant(shared::kSpecSecondColumn, traits.secondColumn);

@@ -33,8 +33,10 @@ TEST_P(Bounces, LastAndPreviousAreWhatTheyAdd) {
     EXPECT_NEAR(statistics[3].previousBounceRadiance, previous, 1e-3 * previous);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Bounces, testing::Values(Integrator::kPath, Integrator::kLight),
-                         [](const auto& test) { return test.param == Integrator::kPath ? "Path" : "Light"; });
+INSTANTIATE_TEST_SUITE_P(All, Bounces, testing::Values(Integrator::kPathTracer, Integrator::kLightTracer),
+                         [](const auto& test) {
+                             return test.param == Integrator::kPathTracer ? "Path" : "Light";
+                         });
 
 }  // namespace
 

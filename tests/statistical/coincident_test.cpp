@@ -59,8 +59,8 @@ class Coincident : public testing::Test {
 // other. The order is that across a small gap: the one that faces the camera is in front; of two that face
 // alike, the first if they face the camera, else the second.
 TEST_F(Coincident, FiltersAreMetInOneOrderByBothIntegrators) {
-    const LightMatrix first{glm::vec3(0.5f), glm::vec3(0.0f), glm::vec3(0.8f), glm::vec3(0.1f)};
-    const LightMatrix second{glm::vec3(0.2f), glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.9f)};
+    const ReflectanceMatrix first{glm::vec3(0.5f), glm::vec3(0.0f), glm::vec3(0.8f), glm::vec3(0.1f)};
+    const ReflectanceMatrix second{glm::vec3(0.2f), glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.9f)};
     for (const float width : {1.0f, 0.7f}) {
         for (const bool firstTurned : {false, true}) {
             for (const bool secondTurned : {false, true}) {
@@ -77,9 +77,9 @@ TEST_F(Coincident, FiltersAreMetInOneOrderByBothIntegrators) {
                          secondTurned);
                     return builder_.scene;
                 };
-                const double apart = meanBy(scene(0.01f), Integrator::kPath, 16);
-                const double path = meanBy(scene(0.0f), Integrator::kPath, 16);
-                const double light = meanBy(scene(0.0f), Integrator::kLight, 2048);
+                const double apart = meanBy(scene(0.01f), Integrator::kPathTracer, 16);
+                const double path = meanBy(scene(0.0f), Integrator::kPathTracer, 16);
+                const double light = meanBy(scene(0.0f), Integrator::kLightTracer, 2048);
                 EXPECT_NEAR(path, apart, 1e-5) << width << firstTurned << secondTurned;
                 EXPECT_NEAR(light, apart, 0.05 * apart) << width << firstTurned << secondTurned;
             }
@@ -120,12 +120,14 @@ class Lamp : public Coincident {
         for (const bool up : {false, true}) {
             builder_.scene = apart;
             up ? lookUp() : lookAtFloor();
-            const double expected = meanBy(builder_.scene, Integrator::kPath, 512);
+            const double expected = meanBy(builder_.scene, Integrator::kPathTracer, 512);
             builder_.scene = together;
             up ? lookUp() : lookAtFloor();
-            EXPECT_NEAR(meanBy(builder_.scene, Integrator::kPath, 512), expected, 0.01 * expected) << up;
+            EXPECT_NEAR(meanBy(builder_.scene, Integrator::kPathTracer, 512), expected, 0.01 * expected)
+                << up;
             // 4 standard errors.
-            EXPECT_NEAR(meanBy(builder_.scene, Integrator::kLight, 8192), expected, 0.08 * expected) << up;
+            EXPECT_NEAR(meanBy(builder_.scene, Integrator::kLightTracer, 8192), expected, 0.08 * expected)
+                << up;
         }
     }
 };
@@ -178,7 +180,7 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
     // The film faces up like the floor and follows it in the scene, so it is behind the floor unless it is
     // above.
     const LoadedScene above = withFilm(0.001f);
-    const double expected = meanBy(above, Integrator::kPath, 512);
+    const double expected = meanBy(above, Integrator::kPathTracer, 512);
     builder_ = floor;
     LoadedScene together = floor.scene;
     {
@@ -194,13 +196,13 @@ TEST_F(Lamp, LightScattersBehindACoincidentFilter) {
         plate(1.0f, 1.0f, lamp(), true);
         together = builder_.scene;
     }
-    EXPECT_NEAR(meanBy(together, Integrator::kPath, 512), expected, 0.01 * expected);
-    EXPECT_NEAR(meanBy(together, Integrator::kLight, 2048), expected, 0.05 * expected);
+    EXPECT_NEAR(meanBy(together, Integrator::kPathTracer, 512), expected, 0.01 * expected);
+    EXPECT_NEAR(meanBy(together, Integrator::kLightTracer, 2048), expected, 0.05 * expected);
     // The light crosses the film twice.
     const double bare = [&] {
         builder_ = floor;
         plate(1.0f, 1.0f, lamp(), true);
-        return meanBy(builder_.scene, Integrator::kPath, 512);
+        return meanBy(builder_.scene, Integrator::kPathTracer, 512);
     }();
     EXPECT_NEAR(expected, 0.25 * bare, 0.02 * bare);
     builder_ = floor;
@@ -233,12 +235,14 @@ LoadedScene groundScene(float reach, bool tilted) {
 }
 
 TEST(LargeTriangles, AGroundOfAnySizeHasTheSamePicture) {
-    const double expected = meanBy(groundScene(8.0f, false), Integrator::kPath, 64);
+    const double expected = meanBy(groundScene(8.0f, false), Integrator::kPathTracer, 64);
     for (const float reach : {8.0f, 3e3f, 1e5f}) {
         for (const bool tilted : {false, true}) {
             const LoadedScene scene = groundScene(reach, tilted);
-            EXPECT_NEAR(meanBy(scene, Integrator::kPath, 64), expected, 0.01 * expected) << reach << tilted;
-            EXPECT_NEAR(meanBy(scene, Integrator::kLight, 256), expected, 0.04 * expected) << reach << tilted;
+            EXPECT_NEAR(meanBy(scene, Integrator::kPathTracer, 64), expected, 0.01 * expected)
+                << reach << tilted;
+            EXPECT_NEAR(meanBy(scene, Integrator::kLightTracer, 256), expected, 0.04 * expected)
+                << reach << tilted;
         }
     }
 }

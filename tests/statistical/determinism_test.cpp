@@ -113,7 +113,7 @@ TEST(Determinism, LightPathsAreNumberedBeyond32Bits) {
 }
 
 TEST(Determinism, LightPathsOfManyCrossingsAreWhole) {
-    // Panes that pass and scatter: particles meet hundreds of surfaces.
+    // Panes that pass and scatter: light paths meet hundreds of surfaces.
     LoadedScene stack = byLight(stackedPanesCase(100).scene);
     stack.camera.vfov = 60.0f;
     stack.settings.width = stack.settings.height = 32;

@@ -53,7 +53,7 @@ void PrintTo(const Expected& expected, std::ostream* out) {
 
 std::uint64_t hashOf(const Film& film) {
     std::uint64_t hash = XXH3_64bits(film.samples().data(), film.samples().size_bytes());
-    for (const std::span<const Film::PixelSum> sums : {film.sums(), film.lightSums()})
+    for (const std::span<const Film::PixelSum> sums : {film.sums(), film.lightPathSums()})
         hash = XXH3_64bits_withSeed(sums.data(), sums.size_bytes(), hash);
     const float quantum = film.quantum();
     return XXH3_64bits_withSeed(&quantum, sizeof quantum, hash);
@@ -76,7 +76,7 @@ TEST_P(FilmBits, AreTheSameAsBefore) {
     scene.reflectance = *presetReflectance(GetParam().preset);
     scene.settings.spp = 4;
     scene.settings.bounces = 6;
-    scene.settings.integrator = Integrator::kPath;
+    scene.settings.integrator = Integrator::kPathTracer;
     EXPECT_EQ(hashOf(render(device(), scene).film), GetParam().path);
     EXPECT_EQ(hashOf(render(device(), byLight(scene)).film), GetParam().light);
 }

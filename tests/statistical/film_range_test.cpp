@@ -42,14 +42,14 @@ class FilmRange : public testing::TestWithParam<Integrator> {
     }
 
     /// Exact with the path tracer; with the light tracer, a visible emitter has noise.
-    double tolerance() const { return GetParam() == Integrator::kLight ? 0.05 : 1e-4; }
+    double tolerance() const { return GetParam() == Integrator::kLightTracer ? 0.05 : 1e-4; }
 
     SceneBuilder builder_;
 };
 
 // A lamp 10^17 times as bright, which the camera does not see. (Hardly any light path starts at the panel.)
 TEST_P(FilmRange, DimLightIsKeptBesideBrightEmittersOutOfSight) {
-    builder_.scene.settings.integrator = Integrator::kPath;
+    builder_.scene.settings.integrator = Integrator::kPathTracer;
     panel(-2.0f, 2.0f, 1e-5f);
     panel(30.0f, 31.0f, 0.0f, 1e12f);
     const RenderOutput output = render(device(), builder_.scene);
@@ -63,7 +63,7 @@ TEST_P(FilmRange, BrightAndDimInOnePicture) {
     panel(0.0f, 2.0f, 1e4f);
     const RenderOutput output = render(device(), builder_.scene);
     EXPECT_NEAR(meanOf(output, 5, 8) / 1e4, 1.0, tolerance());
-    if (GetParam() == Integrator::kPath) {
+    if (GetParam() == Integrator::kPathTracer) {
         // A quantum is 2^-30 of about 5000: 0.047 of the dim value. The limit is 5 standard errors of 6144
         // samples.
         EXPECT_NEAR(meanOf(output, 0, 3) / 1e-4, 1.0, 0.02);
@@ -71,7 +71,8 @@ TEST_P(FilmRange, BrightAndDimInOnePicture) {
     EXPECT_FALSE(output.statistics.filmOverflowed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, FilmRange, testing::Values(Integrator::kPath, Integrator::kLight),
+INSTANTIATE_TEST_SUITE_P(Integrators, FilmRange,
+                         testing::Values(Integrator::kPathTracer, Integrator::kLightTracer),
                          [](const auto& tested) { return std::string(nameOf(tested.param)); });
 
 // An emitter in a pixel that the first look misses, 10^14 times as bright as the rest.

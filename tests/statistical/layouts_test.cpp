@@ -84,7 +84,7 @@ TEST_P(Layouts, OfTheDriversTreeGiveTheSamePicture) {
         return;
     }
     LoadedScene scene = GetParam().scene;
-    const bool lightPaths = scene.settings.integrator == Integrator::kLight;
+    const bool lightPaths = scene.settings.integrator == Integrator::kLightTracer;
     const RenderOutput ours = render(device(), scene);
     const RenderOutput theirs = render(device(), scene, controlOf(kByRayQuery));
     EXPECT_EQ(theirs.statistics.tuning.layout, Layout::kRayQuery);

@@ -57,13 +57,13 @@ class RendererTest : public testing::Test {
             expectSame(renderer, settings, tuning, preset);
         }
 
-        settings.integrator = Integrator::kLight;
+        settings.integrator = Integrator::kLightTracer;
         settings.width = 17;
         settings.seed = 5;
         expectSame(renderer, settings, tuning, "light paths");
         renderer.setReflectance(*presetReflectance("shadowless"));
         expectSame(renderer, settings, tuning, "light paths through everything");
-        settings.integrator = Integrator::kPath;
+        settings.integrator = Integrator::kPathTracer;
         settings.bounces = 2;
         renderer.setDisplay({1, 0});
         expectSame(renderer, settings, tuning, "fewer bounces, the other component");

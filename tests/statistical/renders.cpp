@@ -32,8 +32,8 @@ Renders renderSeeds(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds, s
         const RenderOutput output = render(device(), scene, control);
         EXPECT_EQ(output.statistics.nonFiniteSamples, 0u);
         EXPECT_FALSE(output.statistics.filmOverflowed);
-        EXPECT_EQ(scene.settings.integrator == Integrator::kLight ? output.film.lightPaths()
-                                                                  : output.film.totalSamples(),
+        EXPECT_EQ(scene.settings.integrator == Integrator::kLightTracer ? output.film.lightPaths()
+                                                                        : output.film.totalSamples(),
                   std::uint64_t{scene.settings.width} * scene.settings.height * spp);
         renders.images.push_back(output.film.resolve());
         renders.directLightInClosedForm = output.statistics.directLightInClosedForm;
@@ -55,7 +55,7 @@ std::optional<Renders> renderOtherEstimator(const LoadedScene& scene, std::uint3
 }
 
 Renders renderByLight(LoadedScene scene, std::uint32_t spp, std::uint32_t seeds) {
-    scene.settings.integrator = Integrator::kLight;
+    scene.settings.integrator = Integrator::kLightTracer;
     return renderSeeds(std::move(scene), spp, seeds);
 }
 

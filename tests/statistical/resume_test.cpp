@@ -148,8 +148,10 @@ TEST_P(Resume, RangesAddUp) {
     EXPECT_TRUE(sameBits(sum, whole));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Resume, testing::Values(Integrator::kPath, Integrator::kLight),
-                         [](const auto& test) { return test.param == Integrator::kPath ? "Path" : "Light"; });
+INSTANTIATE_TEST_SUITE_P(All, Resume, testing::Values(Integrator::kPathTracer, Integrator::kLightTracer),
+                         [](const auto& test) {
+                             return test.param == Integrator::kPathTracer ? "Path" : "Light";
+                         });
 
 }  // namespace
 

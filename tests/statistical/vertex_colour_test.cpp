@@ -56,8 +56,8 @@ void expectColours(Integrator integrator, const TuningChoice& tuning) {
     RenderControl control;
     control.tuning = tuning;
     white.settings.integrator = coloured.settings.integrator = integrator;
-    // Few particles reach a pixel, and each pixel needs some.
-    if (integrator == Integrator::kLight) white.settings.spp = coloured.settings.spp = 2048;
+    // Few light paths reach a pixel, and each pixel needs some.
+    if (integrator == Integrator::kLightTracer) white.settings.spp = coloured.settings.spp = 2048;
     const std::vector<glm::vec3> expected = render(device(), white, control).film.resolve().visible;
     const std::vector<glm::vec3> actual = render(device(), coloured, control).film.resolve().visible;
     const ImagePlane plane = imagePlane(white.camera, white.settings.width, white.settings.height);
@@ -83,11 +83,11 @@ void expectColours(Integrator integrator, const TuningChoice& tuning) {
 
 TEST(VertexColours, ScaleTheLightOfPathsFromTheCamera) {
     for (const TuningChoice& tuning : allTunings(device().info()))
-        expectColours(Integrator::kPath, tuning);
+        expectColours(Integrator::kPathTracer, tuning);
 }
 
 TEST(VertexColours, ScaleTheLightOfLightPaths) {
-    expectColours(Integrator::kLight, {});
+    expectColours(Integrator::kLightTracer, {});
 }
 
 }  // namespace

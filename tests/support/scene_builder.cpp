@@ -8,7 +8,7 @@
 
 namespace duolux::test {
 
-LightMatrix matrix(float m00, float m01, float m10, float m11) {
+ReflectanceMatrix matrix(float m00, float m01, float m10, float m11) {
     return {glm::vec3(m00), glm::vec3(m01), glm::vec3(m10), glm::vec3(m11)};
 }
 
@@ -18,7 +18,7 @@ Reflectance preset(const char* name) {
     return *found;
 }
 
-Material filter(const std::string& name, const LightMatrix& transparent) {
+Material filter(const std::string& name, const ReflectanceMatrix& transparent) {
     Material material;
     material.name = name;
     material.baseColor = glm::vec3(0.0f);

@@ -9,12 +9,12 @@
 namespace duolux::test {
 
 /// A 2x2 matrix with the same entries in all channels.
-LightMatrix matrix(float m00, float m01, float m10, float m11);
+ReflectanceMatrix matrix(float m00, float m01, float m10, float m11);
 
 Reflectance preset(const char* name);
 
 /// Absorbs, does not emit, and transmits by `transparent`.
-Material filter(const std::string& name, const LightMatrix& transparent);
+Material filter(const std::string& name, const ReflectanceMatrix& transparent);
 
 enum class Facing : std::uint8_t { kOutward, kInward };
 

@@ -21,10 +21,10 @@ TransportTraits traitsOf(std::string_view preset) {
 }
 
 TEST(Transport, Presets) {
-    EXPECT_EQ(traitsOf("global").transmittance, shared::kTransmittanceZero);
-    EXPECT_EQ(traitsOf("one-bounce").transmittance, shared::kTransmittanceZero);
-    EXPECT_EQ(traitsOf("local").transmittance, shared::kTransmittanceIdentity);
-    EXPECT_EQ(traitsOf("shadowless").transmittance, shared::kTransmittanceIdentity);
+    EXPECT_EQ(traitsOf("global").transmittance, shared::kTransparencyZero);
+    EXPECT_EQ(traitsOf("one-bounce").transmittance, shared::kTransparencyZero);
+    EXPECT_EQ(traitsOf("local").transmittance, shared::kTransparencyIdentity);
+    EXPECT_EQ(traitsOf("shadowless").transmittance, shared::kTransparencyIdentity);
     EXPECT_EQ(traitsOf("local").mostScatterings, 1u);
     EXPECT_EQ(traitsOf("one-bounce").mostScatterings, 1u);
     EXPECT_EQ(traitsOf("global").mostScatterings, TransportTraits::kUnlimited);
@@ -41,17 +41,17 @@ TEST(Transport, Presets) {
 
 TEST(Transport, PartialTransmissionIsGeneral) {
     EXPECT_EQ(analyseTransport(sceneWith(blendReflectance(0.5f, 1.0f))).transmittance,
-              shared::kTransmittanceGeneral);
+              shared::kTransparencyGeneral);
 }
 
 TEST(Transport, LightOnItsWayToTheCameraHasBothComponents) {
     for (const Preset& preset : presets())
-        EXPECT_EQ(traitsOf(preset.name).cameraTransmittance, traitsOf(preset.name).transmittance);
+        EXPECT_EQ(traitsOf(preset.name).cameraTransparency, traitsOf(preset.name).transparency);
     // Invisible light that a crossing makes visible is lost on surfaces, but reaches the camera.
     Reflectance glowing = *presetReflectance("local");
     glowing.transparent.m10 = {0.0f, 0.0f, 0.5f};
-    EXPECT_EQ(analyseTransport(sceneWith(glowing)).transmittance, shared::kTransmittanceIdentity);
-    EXPECT_EQ(analyseTransport(sceneWith(glowing)).cameraTransmittance, shared::kTransmittanceGeneral);
+    EXPECT_EQ(analyseTransport(sceneWith(glowing)).transmittance, shared::kTransparencyIdentity);
+    EXPECT_EQ(analyseTransport(sceneWith(glowing)).cameraTransparency, shared::kTransparencyGeneral);
 }
 
 // The matrix passes the invisible component unchanged only if it does so in every channel.
@@ -61,9 +61,9 @@ TEST(Transport, IdentityIsThatOfAllChannels) {
             Scene scene = sceneWith(*presetReflectance("local"));
             scene.materials[1].reflectance = scene.reflectance;
             scene.materials[1].reflectance->transparent.m00[channel] = other;
-            EXPECT_EQ(analyseTransport(scene).transmittance, shared::kTransmittanceGeneral) << channel;
+            EXPECT_EQ(analyseTransport(scene).transparency, shared::kTransparencyGeneral) << channel;
             scene.reflectance.transparent.m00[channel] = other;
-            EXPECT_EQ(analyseTransport(scene).cameraTransmittance, shared::kTransmittanceGeneral) << channel;
+            EXPECT_EQ(analyseTransport(scene).cameraTransparency, shared::kTransparencyGeneral) << channel;
         }
     }
 }
@@ -72,7 +72,7 @@ TEST(Transport, OneOpaqueMaterialMakesShadows) {
     Scene scene = sceneWith(*presetReflectance("shadowless"));
     scene.materials[1].reflectance = presetReflectance("global");
     const TransportTraits traits = analyseTransport(scene);
-    EXPECT_EQ(traits.transmittance, shared::kTransmittanceGeneral);
+    EXPECT_EQ(traits.transparency, shared::kTransparencyGeneral);
     EXPECT_FALSE(traits.oneReflectance);
 }
 
@@ -80,7 +80,7 @@ TEST(Transport, UnusedMaterialsDoNotCount) {
     Scene scene = sceneWith(*presetReflectance("global"));
     scene.materials.push_back({});
     scene.materials.back().reflectance = presetReflectance("local");
-    EXPECT_EQ(analyseTransport(scene).transmittance, shared::kTransmittanceZero);
+    EXPECT_EQ(analyseTransport(scene).transparency, shared::kTransparencyZero);
     EXPECT_TRUE(analyseTransport(scene).oneReflectance);
 }
 
@@ -90,7 +90,7 @@ TEST(Transport, SecondColumn) {
     EXPECT_TRUE(analyseTransport(sceneWith(reflectance)).secondColumn);
     // Then the identity on the invisible component alone is not enough.
     reflectance.transparent.m00 = glm::vec3(1.0f);
-    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transmittance, shared::kTransmittanceGeneral);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transmittance, shared::kTransparencyGeneral);
 }
 
 /// Importance that alternates between the components: with 01 and 10 the series is infinite, with 10 alone it

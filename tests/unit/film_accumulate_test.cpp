@@ -67,8 +67,8 @@ TEST(Film, ResolvesToTheMeanOfEachPixel) {
 TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
     Film film(2, 1, 0.5f);
     const Film::PixelSum light[] = {{{8, 0, 4}, {16, 2, 0}}, {{0, 0, 0}, {6, 0, 0}}};
-    film.addLight(0, std::span(light).first(1));
-    film.addLight(1, std::span(light).last(1));
+    film.addLightPathSums(0, std::span(light).first(1));
+    film.addLightPathSums(1, std::span(light).last(1));
     film.countLightPaths(8);
     EXPECT_EQ(film.lightPaths(), 8u);
     EXPECT_EQ(film.totalSamples(), 0u);
@@ -94,10 +94,10 @@ TEST(Film, LightPathsAreCountedByTheImageAndKeptApart) {
     // A sum whose sign changed on the device.
     Film passed(2, 1, 0.5f);
     const Film::PixelSum beyond[] = {{{0, 0, 0}, {0, kMin, 0}}, {{0, 0, 0}, {0, 1, 0}}};
-    passed.addLight(0, beyond);
+    passed.addLightPathSums(0, beyond);
     EXPECT_TRUE(passed.overflowed());
-    EXPECT_EQ(passed.lightSums()[0].visible[1], kMax);
-    EXPECT_EQ(passed.lightSums()[1].visible[1], 1);
+    EXPECT_EQ(passed.lightPathSums()[0].visible[1], kMax);
+    EXPECT_EQ(passed.lightPathSums()[1].visible[1], 1);
 }
 
 TEST(Film, HoldsSumsBeyond64Bits) {
@@ -130,7 +130,7 @@ TEST(Film, HoldsSumsBeyond64Bits) {
     Film light(1, 1, 0x1p-30f);
     const Film::PixelSum bright[] = {{{0, 0, 0}, {kMax, 0, 0}}};
     for (int i = 0; i < 100; ++i)
-        light.addLight(0, bright);
+        light.addLightPathSums(0, bright);
     light.countLightPaths(6400);
     EXPECT_FALSE(light.overflowed());
     EXPECT_FLOAT_EQ(light.resolve().visible[0].x, 0x1p27f);
@@ -149,7 +149,7 @@ TEST(Film, ClampsAtTheLargestRadianceAndTells) {
                 EXPECT_EQ(gathered.largestRadiance(), static_cast<double>(largest));
                 for (std::uint32_t i = 0; i < 16; ++i) {
                     gathered.add(pixel, sum, 1);
-                    shot.addLight(0, sum);
+                    shot.addLightPathSums(0, sum);
                 }
                 shot.countLightPaths(16);
                 for (std::uint32_t doubled = 16; doubled < samples; doubled *= 2) {
@@ -172,7 +172,7 @@ TEST(Film, OfAnotherQuantumIsAddedExactly) {
     const Film::PixelSum b[] = {{{1, 10, 20}, {30, 40, 50}}, {{60, 70, 80}, {90, 100, 110}}};
     coarse.add(both, a, 1);
     fine.add(both, b, 1);
-    fine.addLight(0, b);
+    fine.addLightPathSums(0, b);
     fine.countLightPaths(2);
     Film sum = coarse, other = fine;
     sum.add(fine);
@@ -184,7 +184,7 @@ TEST(Film, OfAnotherQuantumIsAddedExactly) {
     EXPECT_EQ(sum.resolve().visible, other.resolve().visible);
     EXPECT_EQ(sum.sums()[0].invisible[1], 18);
     EXPECT_EQ(sum.sums()[0].visible[1], 8);
-    EXPECT_EQ(sum.lightSums()[1].visible[2], 110);
+    EXPECT_EQ(sum.lightPathSums()[1].visible[2], 110);
     // 8 (2^63 - 1) + 1 = 2^66 - 7
     EXPECT_EQ(sum.sums()[0].invisible[0], -7);
     EXPECT_EQ(sum.carries().at(0), 4);

@@ -22,7 +22,7 @@ constexpr FilmLayerSet kAllLayers = (FilmLayerSet{1} << kFilmLayers.size()) - 1;
 
 /// A film in which every number is different and uses its high bits.
 Film someFilm(bool light, FilmLayerSet layers = 0) {
-    Film::Sums sums(kWidth * kHeight), lightSums(light ? kWidth * kHeight : 0);
+    Film::Sums sums(kWidth * kHeight), lightPathSums(light ? kWidth * kHeight : 0);
     Film::Samples samples(kWidth * kHeight);
     std::int64_t next = 0x0123456789abcdef;
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
@@ -31,8 +31,8 @@ Film someFilm(bool light, FilmLayerSet layers = 0) {
             sums[i].invisible[c] = next += 0x1111;
             sums[i].visible[c] = -(next += 0x1111);
             if (!light) continue;
-            lightSums[i].invisible[c] = next += 0x1111;
-            lightSums[i].visible[c] = next += 0x1111;
+            lightPathSums[i].invisible[c] = next += 0x1111;
+            lightPathSums[i].visible[c] = next += 0x1111;
         }
     }
     Film::LayerSums layerSums(samples.size() * channelsOf(layers));
@@ -43,7 +43,7 @@ Film someFilm(bool light, FilmLayerSet layers = 0) {
             0x1p-29f,
             sums,
             samples,
-            lightSums,
+            lightPathSums,
             light ? 0x123456789abull : 0ull,
             {{3, 7}, {50, -1}},
             layers,
@@ -58,7 +58,7 @@ FilmOrigin someOrigin() {
                       DirectLight::kClosedForm,
                       {0.25f, -1.5f},
                       7};
-    origin.settings = {kWidth, kHeight, 33, 12, 0xfffffff0u, Sampler::kIndependent, Integrator::kLight};
+    origin.settings = {kWidth, kHeight, 33, 12, 0xfffffff0u, Sampler::kIndependent, Integrator::kLightTracer};
     return origin;
 }
 
@@ -102,7 +102,7 @@ TEST_F(CheckpointTest, KeepsEverything) {
         writeCheckpoint(file_, origin, film, someStatistics());
         const Checkpoint read = readCheckpoint(file_);
         EXPECT_TRUE(same(read.state.film.sums(), film.sums()));
-        EXPECT_TRUE(same(read.state.film.lightSums(), film.lightSums()));
+        EXPECT_TRUE(same(read.state.film.lightPathSums(), film.lightPathSums()));
         EXPECT_TRUE(std::ranges::equal(read.state.film.samples(), film.samples()));
         EXPECT_EQ(read.state.film.lightPaths(), film.lightPaths());
         EXPECT_EQ(read.state.film.quantum(), film.quantum());
@@ -183,7 +183,7 @@ TEST_F(CheckpointTest, AnotherOriginIsRefusedByName) {
         {"size", [](FilmOrigin& o) { o.settings.width = 6; }},
         {"reflectance", [](FilmOrigin& o) { o.reflectance = "global"; }},
         {"scene hash", [](FilmOrigin& o) { o.sceneHash[3] = 'x'; }},
-        {"integrator", [](FilmOrigin& o) { o.settings.integrator = Integrator::kPath; }},
+        {"integrator", [](FilmOrigin& o) { o.settings.integrator = Integrator::kPathTracer; }},
         {"bounces", [](FilmOrigin& o) { o.settings.bounces = 13; }},
         {"seed", [](FilmOrigin& o) { o.settings.seed = 1; }},
         {"sampler", [](FilmOrigin& o) { o.settings.sampler = Sampler::kSobol; }},

@@ -10,8 +10,8 @@
 #include "host/base/parallel.h"
 #include "host/base/process.h"
 #include "host/bvh/wide_bvh.h"
-#include "host/render/light_kernel.h"
-#include "host/render/path_kernel.h"
+#include "host/render/light_tracer_kernel.h"
+#include "host/render/path_tracer_kernel.h"
 #include "host/render/pixel_order.h"
 #include "host/render/render.h"
 #include "host/tools/bench/ray_sets.h"
@@ -68,7 +68,7 @@ struct SceneSuite::State {
           folder(std::move(folder_)),
           options(std::move(options_)),
           scene(loadScene(path)),
-          deviceScene(uploadScene(device, scene, Integrator::kPath, options.tuning)) {}
+          deviceScene(uploadScene(device, scene, Integrator::kPathTracer, options.tuning)) {}
 
     bool wanted(const std::string& what) const { return isChosen(name + "/" + what, options.only); }
 
@@ -133,7 +133,7 @@ void SceneSuite::State::addRays() {
 
 void SceneSuite::State::addRenders() {
     for (const NamedReflectance& preset : kPresets) {
-        for (const Integrator integrator : {Integrator::kPath, Integrator::kLight}) {
+        for (const Integrator integrator : {Integrator::kPathTracer, Integrator::kLightTracer}) {
             const double samples = static_cast<double>(options.width) * options.height * options.spp;
             add(fmt::format("render/{}/{}", preset.name, nameOf(integrator)), "Msamples/s", samples * 1e-6,
                 [this, &preset, integrator] {
@@ -178,21 +178,21 @@ void SceneSuite::State::addFilms() {
         std::make_shared<std::vector<std::uint32_t>>(pixelOrder(options.width, options.height));
     if (wanted("film/path")) {
         const auto count =
-            static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathKernel::kMaxPixels));
-        const auto gathering = std::make_shared<PathKernel>(
+            static_cast<std::uint32_t>(std::min<std::size_t>(pixels->size(), PathTracerKernel::kMaxPixels));
+        const auto pathTracer = std::make_shared<PathTracerKernel>(
             RenderInputs{device, deviceScene, scene, scene.settings}, *pixels, count, false);
-        gathering->submit(0, {0, count, 0, 1}, film->quantum());
-        gathering->wait(0);
+        pathTracer->submit(0, {0, count, 0, 1}, film->quantum());
+        pathTracer->wait(0);
         addFilm("path", count, sizeof(shared::PixelResult),
-                [pixels, gathering, film] { gathering->addTo(*film, 0); });
+                [pixels, pathTracer, film] { pathTracer->addTo(*film, 0); });
     }
     if (wanted("film/light")) {
-        const auto shooting = std::make_shared<LightKernel>(
-            RenderInputs{device, deviceScene, scene, scene.settings}, 1, LightKernel::Limits{});
-        addFilm("light", pixels->size(), sizeof(Film::PixelSum), [shooting, film] {
+        const auto lightTracer = std::make_shared<LightTracerKernel>(
+            RenderInputs{device, deviceScene, scene, scene.settings}, 1, LightTracerKernel::Limits{});
+        addFilm("light", pixels->size(), sizeof(Film::PixelSum), [lightTracer, film] {
             bool partly = false;
-            shooting->takeFilm(*film, partly);
-            shooting->clearFilm();
+            lightTracer->takeFilm(*film, partly);
+            lightTracer->clearFilm();
         });
     }
 }
@@ -205,16 +205,16 @@ void SceneSuite::State::addHost() {
     add("build", "Mtriangles/s", triangles * 1e-6, [this] {
         // The driver builds its tree from uploaded buffers.
         if (deviceScene.tuning.layout == Layout::kRayQuery) {
-            return BenchTimes{uploadScene(device, scene, Integrator::kPath, options.tuning).buildSeconds,
-                              0.0};
+            return BenchTimes{
+                uploadScene(device, scene, Integrator::kPathTracer, options.tuning).buildSeconds, 0.0};
         }
         return BenchTimes{secondsOf([this] { buildWideBvh(scene.geometry); }), 0.0};
     });
     const auto bytes = static_cast<double>(deviceScene.deviceBytes());
     add("upload", "MB/s", bytes * 1e-6,
         [this] {
-            return BenchTimes{uploadScene(device, scene, Integrator::kPath, options.tuning).uploadSeconds,
-                              0.0};
+            return BenchTimes{
+                uploadScene(device, scene, Integrator::kPathTracer, options.tuning).uploadSeconds, 0.0};
         },
         {{"bytes_per_triangle", bytes / triangles}});
 }

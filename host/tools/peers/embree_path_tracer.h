@@ -7,11 +7,11 @@
 
 namespace duolux {
 
-/// The path tracer of shaders/kernels/path.comp for the reflectance `global`, in C++ with Embree's single
-/// rays. Bounces, Russian roulette, next-event estimation with the same table of emitters, and multiple
-/// importance sampling with the balance heuristic are the same; random numbers are cheaper. Renders the
-/// visible component of the image. Throws UsageError for unsupported features: smooth normals, materials with
-/// their own reflectance.
+/// The path tracer of shaders/kernels/path_tracer.comp for the reflectance `global`, in C++ with Embree's
+/// single rays. Bounces, Russian roulette, next-event estimation with the same table of emitters, and
+/// multiple importance sampling with the balance heuristic are the same; random numbers are cheaper. Renders
+/// the visible component of the image. Throws UsageError for unsupported features: smooth normals, materials
+/// with their own reflectance.
 RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const RenderSettings& settings,
                              const EmitterTable& emitters);
 

@@ -3,7 +3,7 @@
 #ifndef DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 #define DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 
-#include "shaders/lib/light_matrix.glsl"
+#include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/shared/emitter_layout.h"
 
@@ -16,7 +16,7 @@ struct Emitter {
     uint flags;
     float positionError;
     uint triangle;        // as in DeviceEmitter
-    Light emission;
+    Radiance2 emission;
     float density;
 };
 
@@ -27,8 +27,8 @@ Emitter fetchEmitter(uint index) {
     uvec4 t2 = fetchEmitterTexel(texel + 2u);
     uvec4 t3 = fetchEmitterTexel(texel + 3u);
     uvec4 t4 = fetchEmitterTexel(texel + 4u);
-    return Emitter(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t4.w, uintBitsToFloat(t1.w),
-                   t2.w, Light(uintBitsToFloat(t3.xyz), uintBitsToFloat(t4.xyz)), uintBitsToFloat(t3.w));
+    return Emitter(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t4.w,
+                   uintBitsToFloat(t1.w), t2.w, Radiance2(uintBitsToFloat(t3.xyz), uintBitsToFloat(t4.xyz)), uintBitsToFloat(t3.w));
 }
 
 // The entry of the alias table at an index.
@@ -38,7 +38,7 @@ struct AliasEntry {
 };
 
 AliasEntry fetchAliasEntry(uint index) {
-    uvec4 t = fetchEmitterTexel(index * kEmitterTexels + 5u);
+    uvec4 t = fetchEmitterTexel(index * kEmitterTexels + kEmitterAliasTexel);
     return AliasEntry(uintBitsToFloat(t.x), t.y);
 }
 
@@ -53,30 +53,30 @@ struct EmitterPoint {
 struct EmitterSample {
     vec3 wi;          // unit, from the point to the emitter
     float distance;   // to just in front of the emitter, or to the emitter itself if surfaces coincide with it
-    Light emission;   // radiance that leaves the emitter towards the point
+    Radiance2 emission;   // radiance that leaves the emitter towards the point
     float pdf;        // per steradian; if `delta`, the probability of choosing the emitter
     bool delta;       // wi is the only direction, and emission is irradiance that faces it
     uint emitter;     // index
     uint coincident;  // the emitter's triangle in device memory if other surfaces coincide with it, else kNoTriangle
 };
 
-// A particle that leaves an emitter.
+// A light path that leaves an emitter.
 struct EmittedRay {
-    SurfacePoint point;  // its normals are on the side on which the particle leaves
+    SurfacePoint point;  // its normals are on the side on which the light path leaves
     vec3 direction;      // unit
-    Light flux;          // W: emission divided by the density of the ray
+    Radiance2 flux;          // W: emission divided by the density of the ray
 };
 
 // What the camera sees of a point on an emitter.
 struct EmitterSeen {
     SurfacePoint point;  // its normals are on the side that faces the camera
-    Light intensity;     // emission divided by the density of the point, W sr^-1
+    Radiance2 intensity;     // emission divided by the density of the point, W sr^-1
 };
 
 // The radiance that an emitter sends to one side.
-Light emissionOn(Emitter emitter, bool front) {
+Radiance2 emissionOn(Emitter emitter, bool front) {
     bool emits = (emitter.flags & (front ? kEmitterFront : kEmitterBack)) != 0u;
-    return Light(emits ? emitter.emission.invisible : vec3(0.0), emits ? emitter.emission.visible : vec3(0.0));
+    return Radiance2(emits ? emitter.emission.invisible : vec3(0.0), emits ? emitter.emission.visible : vec3(0.0));
 }
 
 #endif

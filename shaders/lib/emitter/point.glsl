@@ -14,7 +14,7 @@ EmitterSample samplePointEmitter(Emitter emitter, uint index, vec3 point) {
     EmitterSample s;
     s.distance = sqrt(distanceSquared);
     s.wi = offset / s.distance;
-    s.emission = lightScale(emitter.emission, vec3(1.0 / distanceSquared));
+    s.emission = scaled(emitter.emission, vec3(1.0 / distanceSquared));
     s.pdf = emitter.density;
     s.delta = true;
     s.emitter = index;
@@ -22,18 +22,18 @@ EmitterSample samplePointEmitter(Emitter emitter, uint index, vec3 point) {
     return s;
 }
 
-Light irradianceFromPoint(Emitter emitter, vec3 point, vec3 normal) {
+Radiance2 irradianceFromPoint(Emitter emitter, vec3 point, vec3 normal) {
     vec3 offset = emitter.v0 - point;
     float distanceSquared = dot(offset, offset);
     float cosine = max(dot(normal, offset), 0.0) / sqrt(distanceSquared);
-    return lightScale(emitter.emission, vec3(distanceSquared > 0.0 ? cosine / distanceSquared : 0.0));
+    return scaled(emitter.emission, vec3(distanceSquared > 0.0 ? cosine / distanceSquared : 0.0));
 }
 
 EmittedRay emitFromPoint(Emitter emitter, vec2 u) {
     EmittedRay ray;
     ray.direction = uniformSphere(u);
     ray.point = SurfacePoint(emitter.v0, ray.direction, ray.direction, 0u, 0u, 0.0);
-    ray.flux = lightScale(emitter.emission, vec3(4.0 * kPi / emitter.density));
+    ray.flux = scaled(emitter.emission, vec3(4.0 * kPi / emitter.density));
     return ray;
 }
 

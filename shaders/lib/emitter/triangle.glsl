@@ -51,12 +51,12 @@ EmitterSample sampleTriangleEmitter(Emitter emitter, uint index, vec3 point, vec
 
 // Light that reaches a point from the whole emitter, nothing being in between: the integral of radiance times the cosine
 // with `normal` over the solid angle.
-Light irradianceFromTriangle(Emitter emitter, vec3 point, vec3 normal) {
+Radiance2 irradianceFromTriangle(Emitter emitter, vec3 point, vec3 normal) {
     vec3 a = emitter.v0 - point;
     vec3 edge1 = emitter.v1 - emitter.v0;
     vec3 edge2 = emitter.v2 - emitter.v0;
     bool front = dot(cross(edge1, edge2), a) < 0.0;
-    return lightScale(emissionOn(emitter, front), vec3(projectedSolidAngle(a, edge1, edge2, normal)));
+    return scaled(emissionOn(emitter, front), vec3(projectedSolidAngle(a, edge1, edge2, normal)));
 }
 
 // The point on the side of `normal`. Coincident surfaces may be on either side, so the point counts as behind them.
@@ -67,7 +67,7 @@ SurfacePoint emitterSurface(Emitter emitter, EmitterPoint on, vec3 normal) {
     return SurfacePoint(position, normal, normal, emitter.triangle, coincident ? 1u : 0u, offset);
 }
 
-// Flux of a particle (W) per unit of emitted radiance if the point has the density pdfArea (m^-2), the side is chosen
+// Flux of a light path (W) per unit of emitted radiance if the point has the density pdfArea (m^-2), the side is chosen
 // uniformly from `sides`, and the direction has the density cos / pi.
 float emittedFlux(float pdfArea, float sides) { return kPi * sides / pdfArea; }
 
@@ -78,14 +78,14 @@ EmittedRay emitFromTriangle(Emitter emitter, EmitterPoint on, float side, vec2 u
     EmittedRay ray;
     ray.point = emitterSurface(emitter, on, normal);
     ray.direction = fromFrame(normal, cosineHemisphere(u));
-    ray.flux = lightScale(emitter.emission, vec3(emittedFlux(emitter.density, bothSides ? 2.0 : 1.0)));
+    ray.flux = scaled(emitter.emission, vec3(emittedFlux(emitter.density, bothSides ? 2.0 : 1.0)));
     return ray;
 }
 
 EmitterSeen seeTriangleEmitter(Emitter emitter, EmitterPoint on, vec3 toCamera) {
     bool front = dot(on.normal, toCamera) > 0.0;
     return EmitterSeen(emitterSurface(emitter, on, front ? on.normal : -on.normal),
-                       lightScale(emissionOn(emitter, front), vec3(1.0 / emitter.density)));
+                       scaled(emissionOn(emitter, front), vec3(1.0 / emitter.density)));
 }
 
 #endif

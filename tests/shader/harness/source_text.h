@@ -22,7 +22,7 @@ std::string collapseSpaces(std::string_view text);
 /// Whether a character can be part of an identifier or a number.
 bool isWordCharacter(char c);
 
-/// "light_matrix" -> "LightMatrix".
+/// "reflectance_matrix" -> "ReflectanceMatrix".
 std::string pascalCase(std::string_view snake);
 
 }  // namespace duolux::test

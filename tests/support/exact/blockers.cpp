@@ -16,16 +16,18 @@ namespace {
 const Emission kGlow{{3.0f, 2.0f, 5.0f}, {0.5f, 1.0f, 4.0f}, Sides::kFront};
 const glm::vec3 kEye{0.95f, 0.2f, 0.25f};  // passes beside the panes
 
-const LightMatrix kAmber{{0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
-const LightMatrix kTeal{{0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
-const LightMatrix kOpaque{{0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}};
+const ReflectanceMatrix kAmber{
+    {0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
+const ReflectanceMatrix kTeal{{0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
+const ReflectanceMatrix kOpaque{
+    {0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}};
 
-LightMatrix passes(float t) {
+ReflectanceMatrix passes(float t) {
     return blendReflectance(t, 0.0f).transparent;
 }
 
 struct Pane {
-    LightMatrix transparent;
+    ReflectanceMatrix transparent;
     float height;
     bool half = false;  ///< covers x >= 0 alone
     bool turned = false;
@@ -130,7 +132,7 @@ std::vector<ExactCase> blockerCases() {
     add("BlockerCoincident", {mixing, preset("global"), {{kAmber, 0.7f}, {kAmber, 0.7f}}});
     cases.push_back(stackedPanesCase(24));
     // Strictly triangular matrices T: their product is zero in this order, and non-zero in the other.
-    const LightMatrix raise = matrix(0, 1, 0, 0), lower = matrix(1, 0, 0, 0);
+    const ReflectanceMatrix raise = matrix(0, 1, 0, 0), lower = matrix(1, 0, 0, 0);
     add("BlockerExtinct", {mixing, preset("global"), {{raise, 0.7f}, {lower, 1.3f}}});
     add("BlockerNotExtinct", {mixing, preset("global"), {{lower, 0.7f}, {raise, 1.3f}}});
     return cases;

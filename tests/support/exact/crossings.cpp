@@ -11,11 +11,14 @@ namespace duolux::test {
 
 namespace {
 
-const LightMatrix kFirst{{0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
-const LightMatrix kSecond{{0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
-const LightMatrix kThird{{0.0f, 0.5f, 1.0f}, {1.0f, 0.2f, 0.0f}, {0.5f, 0.0f, 0.3f}, {0.0f, 1.0f, 0.6f}};
+const ReflectanceMatrix kFirst{
+    {0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
+const ReflectanceMatrix kSecond{
+    {0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
+const ReflectanceMatrix kThird{
+    {0.0f, 0.5f, 1.0f}, {1.0f, 0.2f, 0.0f}, {0.5f, 0.0f, 0.3f}, {0.0f, 1.0f, 0.6f}};
 
-Material pane(const char* name, const LightMatrix& transparent, const Emission& emission) {
+Material pane(const char* name, const ReflectanceMatrix& transparent, const Emission& emission) {
     Material material = filter(name, transparent);
     material.emission = emission;
     return material;
@@ -40,7 +43,8 @@ LoadedScene view(SceneBuilder builder, glm::vec3 position, float vfov, std::uint
 
 /// Two spheres seen from outside. They face inwards, so a ray first crosses the back of each, which is dark,
 /// then its front.
-ExactCase fromOutside(const char* name, const LightMatrix& outer, const LightMatrix& inner, Sides sides) {
+ExactCase fromOutside(const char* name, const ReflectanceMatrix& outer, const ReflectanceMatrix& inner,
+                      Sides sides) {
     SceneBuilder builder;
     Emission a = kGlow[0], b = kGlow[1];
     a.sides = b.sides = sides;
@@ -54,10 +58,11 @@ ExactCase fromOutside(const char* name, const LightMatrix& outer, const LightMat
 }
 
 /// Three spheres from their centre: E1 + T1 (E2 + T2 E3), to which the innermost adds its interreflections.
-ExactCase fromCentre(const char* name, const LightMatrix& first, const LightMatrix& second,
+ExactCase fromCentre(const char* name, const ReflectanceMatrix& first, const ReflectanceMatrix& second,
                      std::uint32_t bounces) {
     const glm::vec3 albedo{0.4f, 0.6f, 0.8f};
-    const LightMatrix opaque{{0.3f, 0.5f, 0.2f}, {0.5f, 0.1f, 0.4f}, {0.7f, 0.2f, 0.6f}, {0.1f, 0.4f, 0.3f}};
+    const ReflectanceMatrix opaque{
+        {0.3f, 0.5f, 0.2f}, {0.5f, 0.1f, 0.4f}, {0.7f, 0.2f, 0.6f}, {0.1f, 0.4f, 0.3f}};
     SceneBuilder builder;
     Material inner = pane("inner", first, kGlow[0]);
     inner.baseColor = albedo;

@@ -20,12 +20,12 @@ const double kKept[3] = {0.5, 0.75, 0.25};  ///< q per channel
 constexpr double kAlbedo = 0.5;
 
 /// The material of that furnace for a transmittance; `lean`, 0..1, divides O between its columns.
-Material furnaceMaterial(const char* name, const LightMatrix& transparent, double lean) {
+Material furnaceMaterial(const char* name, const ReflectanceMatrix& transparent, double lean) {
     Material material;
     material.name = name;
     material.baseColor = glm::vec3(static_cast<float>(kAlbedo));
     material.reflectance = Reflectance{{}, transparent};
-    LightMatrix& o = material.reflectance->opaque;
+    ReflectanceMatrix& o = material.reflectance->opaque;
     material.emission.sides = Sides::kBoth;
     const ChannelMatrix t = reference::channelsOf(transparent);
     for (int c = 0; c < 3; ++c) {
@@ -44,9 +44,9 @@ Material furnaceMaterial(const char* name, const LightMatrix& transparent, doubl
 
 ExactCase furnace(std::string name, bool panes, std::uint32_t bounces) {
     // T L <= L in both components, so emission and scattering are non-negative.
-    const LightMatrix a{{0.2f, 0.6f, 0.1f}, {0.5f, 0.1f, 0.2f}, {0.1f, 0.7f, 0.9f}, {0.2f, 0.5f, 0.1f}};
-    const LightMatrix b{{0.7f, 0.1f, 0.2f}, {0.1f, 0.3f, 0.1f}, {0.2f, 0.2f, 0.4f}, {0.4f, 0.3f, 0.7f}};
-    const LightMatrix c{{0.0f, 0.2f, 0.3f}, {0.8f, 0.2f, 0.1f}, {0.3f, 0.0f, 0.5f}, {0.0f, 0.6f, 0.2f}};
+    const ReflectanceMatrix a{{0.2f, 0.6f, 0.1f}, {0.5f, 0.1f, 0.2f}, {0.1f, 0.7f, 0.9f}, {0.2f, 0.5f, 0.1f}};
+    const ReflectanceMatrix b{{0.7f, 0.1f, 0.2f}, {0.1f, 0.3f, 0.1f}, {0.2f, 0.2f, 0.4f}, {0.4f, 0.3f, 0.7f}};
+    const ReflectanceMatrix c{{0.0f, 0.2f, 0.3f}, {0.8f, 0.2f, 0.1f}, {0.3f, 0.0f, 0.5f}, {0.0f, 0.6f, 0.2f}};
     SceneBuilder builder;
     const std::uint32_t wall = builder.add(furnaceMaterial("wall", {}, 0.7));
     builder.box({-2, -1.5f, -2.5f}, {2, 1.5f, 2}, Facing::kInward, wall);

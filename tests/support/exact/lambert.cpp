@@ -65,7 +65,7 @@ struct Floor {
     Reflectance reflectance;
     /// Panes between the floor and both lamp and camera, from the top; they absorb the light that they do not
     /// transmit.
-    std::vector<LightMatrix> panes;
+    std::vector<ReflectanceMatrix> panes;
     float distance = 0.25f;  ///< between panes
 };
 
@@ -85,7 +85,7 @@ ExactCase floorImage(const Floor& setup) {
     builder.quad(polygon[0], polygon[1], polygon[2], polygon[3], lampIndex);
     ChannelMatrix down = reference::identityPerChannel(), up = reference::identityPerChannel();
     float height = 0.9f;
-    for (const LightMatrix& pane : setup.panes) {
+    for (const ReflectanceMatrix& pane : setup.panes) {
         const std::uint32_t index = builder.add(filter("pane", pane));
         builder.quad({-9, height, 9}, {9, height, 9}, {9, height, -9}, {-9, height, -9}, index);
         up = up * reference::channelsOf(pane);
@@ -146,14 +146,16 @@ std::vector<ExactCase> lambertCases() {
     add("LambertEmitterTurnedAway", {flat, {square[0], square[3], square[2], square[1]}, kEye, 0.0});
     cases.push_back(twoEmitters());
     cases.push_back(floorImage({"LambertFloorImage", preset("local"), {}}));
-    const LightMatrix amber{{0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
-    const LightMatrix teal{{0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
+    const ReflectanceMatrix amber{
+        {0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
+    const ReflectanceMatrix teal{
+        {0.2f, 0.7f, 0.1f}, {0.8f, 0.1f, 0.5f}, {0.5f, 0.3f, 0.9f}, {0.6f, 0.4f, 0.2f}};
     const Reflectance full{{{0.5f, 0.2f, 0.7f}, {0.4f, 0.6f, 0.1f}, {0.3f, 0.9f, 0.5f}, {0.2f, 0.3f, 0.4f}},
                            {}};
     cases.push_back(floorImage({"LambertFloorAmberTeal", full, {amber, teal}}));
     cases.push_back(floorImage({"LambertFloorTealAmber", full, {teal, amber}}));
     // The ray crosses both panes, one after the other.
-    const LightMatrix half = matrix(0.5f, 0, 0, 0.75f), third = matrix(0.3f, 0, 0, 0.6f);
+    const ReflectanceMatrix half = matrix(0.5f, 0, 0, 0.75f), third = matrix(0.3f, 0, 0, 0.6f);
     cases.push_back(floorImage({"LambertFloorCoincidentPanes", full, {half, third}, 0.0f}));
     cases.push_back(floorImage({"LambertFloorOpaqueToVisible", preset("global"), {matrix(1, 0, 0, 0)}}));
     return cases;

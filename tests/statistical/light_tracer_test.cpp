@@ -228,7 +228,7 @@ TEST(LightPaths, ManyTimesBrighterThanItsEmitterIsHeld) {
     scene.settings.bounces = 1;
     scene.settings.spp = 1u << 14;
     const RenderOutput gathered = render(device(), scene);
-    scene.settings.integrator = Integrator::kLight;
+    scene.settings.integrator = Integrator::kLightTracer;
     const RenderOutput shot = render(device(), scene);
     EXPECT_FALSE(gathered.statistics.filmOverflowed);
     EXPECT_FALSE(shot.statistics.filmOverflowed);

@@ -1,10 +1,10 @@
-// The light tracer: particles from the emitters carry a column L of flux per colour channel. At a surface O f_opaque L is
-// connected to the camera and may continue in a new direction, T L continues straight on: the adjoint of path.comp, with
-// the matrices multiplied from the left, in the order met.
+// The light tracer: paths from the emitters carry a column L of flux per colour channel. At a surface O f_opaque L is
+// connected to the camera and may continue in a new direction, T L continues straight on: the adjoint of the path tracer,
+// with the matrices multiplied from the left, in the order met.
 //
 // A team of lanes takes the paths of a range one after the other. Rays along the path and rays to the camera share one
-// traversal. All surfaces along a ray are met in order: at each, the particle is connected to the camera, and one of them
-// is chosen, in proportion to the flux that it would scatter, to continue from.
+// traversal. All surfaces along a ray are met in order: at each, the path is connected to the camera, and one of them is
+// chosen, in proportion to the flux that it would scatter, to continue from.
 //
 // What arrives at the camera is added to the film with atomics, in integers: in any order the sums are the same.
 #version 460
@@ -18,9 +18,9 @@
 #include "shaders/kernels/scene.glsl"
 #include "shaders/lib/film.glsl"
 #include "shaders/lib/light_path.glsl"
-#include "shaders/shared/light_layout.h"
+#include "shaders/shared/light_tracer_layout.h"
 
-layout(constant_id = kSpecCameraTransmittance) const uint kCameraTransmittance = kTransmittanceGeneral;
+layout(constant_id = kSpecCameraTransparency) const uint kCameraTransparency = kTransparencyGeneral;
 layout(constant_id = kSpecFilmBands) const uint kFilmBands = 1u;
 layout(constant_id = kSpecBandPixels) const uint kBandPixels = 1u;
 
@@ -30,21 +30,21 @@ layout(binding = kBindingFilm, scalar) buffer FilmBlock { uint64_t sums[]; } fil
 #else
 layout(binding = kBindingFilm, scalar) buffer FilmBlock { uvec2 sums[]; } film[kFilmBands];
 #endif
-layout(push_constant, scalar) uniform DispatchBlock { LightDispatch dispatch; };
+layout(push_constant, scalar) uniform DispatchBlock { LightTracerDispatch dispatch; };
 
 #include "shaders/kernels/segment.glsl"
 #include "shaders/kernels/camera_connection.glsl"
 #include "shaders/kernels/team.glsl"
 
-// Where a particle starts.
+// Where a light path starts.
 struct Start {
     Emitter emitter;
     EmitterPoint on;
     float side;  // a uniform number
 };
 
-// The start of the particle of this number. `outgoing`: what the camera may see of it, from whichever side the particle
-// leaves.
+// The start of the light path of this number. `outgoing`: what the camera may see of it, whichever side the path leaves
+// from.
 Start startPath(uvec2 stream, out Outgoing outgoing) {
     EmitterChoice choice =
         chooseEmitter(params.emitterCount, drawWords(stream, sampleDimension(0u, 0u, kDimensionEmitter)));
@@ -57,7 +57,7 @@ Start startPath(uvec2 stream, out Outgoing outgoing) {
     return start;
 }
 
-// The particle leaves its emitter.
+// The light path leaves its emitter.
 LightPath emitPath(uvec2 stream, Start start, vec2 u) {
     EmittedRay ray = emitRay(start.emitter, start.on, start.side, u);
     LightPath path;
@@ -71,7 +71,7 @@ LightPath emitPath(uvec2 stream, Start start, vec2 u) {
     return path;
 }
 
-// Whether the particle continues from the chosen vertex of the segment; if it does, its flux there carries the weights.
+// Whether the path continues from the chosen vertex of the segment; if it does, its flux there carries the weights.
 bool endSegment(inout LightPath path, inout Vertex vertex) {
     float weightSum = vertex.weightSum;
     vertex.weightSum = 0.0;
@@ -80,42 +80,42 @@ bool endSegment(inout LightPath path, inout Vertex vertex) {
     // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted.
     float survival = path.scatterings >= 2u ? survivalProbability(weightSum / path.emitted) : 1.0;
     uint roulette = sampleDimension(path.scatterings, path.crossings, kDimensionRoulette);
-    path.scattered = lightScale(path.scattered, vec3(weightSum / (vertex.weight * survival)));
+    path.scattered = scaled(path.scattered, vec3(weightSum / (vertex.weight * survival)));
     return drawChoice(path.stream, roulette) < survival;
 }
 
-// The particle leaves a vertex for a new segment.
+// The light path leaves a vertex for a new segment.
 void beginSegment(inout LightPath path, Vertex vertex, vec2 u) {
     BsdfSample s = scatter(vertex, -path.segment.direction, u, path.stream, path.scatterings, kModeImportance);
-    path.flux = lightScale(path.scattered, s.weight);
+    path.flux = scaled(path.scattered, s.weight);
     path.segment = leaveVertex(vertex.point, s.wi);
     path.scatterings += 1u;
     path.crossings = 0u;
     path.ended = !(s.pdf > 0.0);
 }
 
-// The particle has met a surface: light for the camera, a candidate for scattering, and the crossing. Returns whether
+// The light path has met a surface: light for the camera, a candidate for scattering, and the crossing. Returns whether
 // the segment continues.
 bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoing, Traversal ray, Triangle tri) {
     SurfaceHit hit = meetTriangle(path.segment, path.crossings, ray, tri);
     vec3 toEmitter = -path.segment.direction;
     float adjoint = materialScatters(hit.material, hit.front) ? shadingAdjoint(hit.point, toEmitter) : 0.0;
-    Light scattered = lightScale(lightApply(opaqueOf(hit.materialIndex), path.flux), vec3(adjoint));
+    Radiance2 scattered = scaled(matrixApply(opaqueOf(hit.materialIndex), path.flux), vec3(adjoint));
     BsdfFrame frame = frameOf(hit.point);
     vec3 f = bsdfEvaluate(hit.material.bsdf, frame, toEmitter, directionToCamera(hit.point.position), kModeImportance);
-    outgoing = Outgoing(hit.point, lightScale(scattered, f), path.scatterings + 1u);
+    outgoing = Outgoing(hit.point, scaled(scattered, f), path.scatterings + 1u);
 
-    float weight = carried(lightScale(scattered, bsdfAlbedo(hit.material.bsdf, frame, toEmitter)));
+    float weight = carried(scaled(scattered, bsdfAlbedo(hit.material.bsdf, frame, toEmitter)));
     if (weight > 0.0) {
         float u = 0.0;
-        if (kTransmittance != kTransmittanceZero) {
+        if (kTransparency != kTransparencyZero) {
             u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionCrossing));
         }
         if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }
 
-    if (kTransmittance == kTransmittanceZero) return false;
-    path.flux = lightApply(transparentOf(hit.materialIndex), path.flux);
+    if (kTransparency == kTransparencyZero) return false;
+    path.flux = matrixApply(transparentOf(hit.materialIndex), path.flux);
     crossSurface(path.segment, ray);
     path.crossings += 1u;
     return carried(path.flux) > 0.0;
@@ -138,7 +138,7 @@ Traversal nextRay(LightPath path, Connection connection, inout LaneSums sums) {
     if (toCamera) segment = connection.segment;
     Traversal ray = traversalStart(0u, segment.origin, segment.direction, segment.t, segment.order,
                                    toCamera ? connection.distance : kInfinity,
-                                   toCamera && kCameraTransmittance != kTransmittanceGeneral);
+                                   toCamera && kCameraTransparency != kTransparencyGeneral);
     ray.nodesLeft = toCamera || onPath;
     return ray;
 }

@@ -5,16 +5,16 @@
 #include "host/base/error.h"
 #include "host/render/context.h"
 #include "host/render/film_quantum.h"
-#include "host/render/path_kernel.h"
+#include "host/render/path_tracer_kernel.h"
 #include "host/render/pixel_order.h"
 
 namespace duolux {
 
 namespace {
 
-class Gatherer {
+class PathTracer {
   public:
-    explicit Gatherer(RenderContext& context)
+    explicit PathTracer(RenderContext& context)
         : context_(context), pixels_(pixelOrder(context.film.width(), context.film.height())) {}
 
     void run() {
@@ -23,9 +23,9 @@ class Gatherer {
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxPixels = std::min<std::uint32_t>(
             static_cast<std::uint32_t>(pixels_.size()),
-            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathKernel::kMaxPixels);
+            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathTracerKernel::kMaxPixels);
         statistics.directLightInClosedForm = chooseClosedForm();
-        PathKernel kernel(context_.inputs(), pixels_, maxPixels, statistics.directLightInClosedForm);
+        PathTracerKernel kernel(context_.inputs(), pixels_, maxPixels, statistics.directLightInClosedForm);
         statistics.pipelineSeconds =
             std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
         statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();
@@ -49,13 +49,13 @@ class Gatherer {
         return applies && (wanted == DirectLight::kClosedForm || (pays && wanted == DirectLight::kAuto));
     }
 
-    void trace(PathKernel& kernel) {
+    void trace(PathTracerKernel& kernel) {
         const RenderControl& control = context_.control;
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxSamples =
             control.maxSamplesPerDispatch > 0
-                ? std::min(PathKernel::kMaxSamples, control.maxSamplesPerDispatch)
-                : PathKernel::kMaxSamples;
+                ? std::min(PathTracerKernel::kMaxSamples, control.maxSamplesPerDispatch)
+                : PathTracerKernel::kMaxSamples;
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), control.firstSample,
                           context_.settings.spp, kernel.maxPixels(), maxSamples);
         if (context_.samplesResumed > 0) schedule.resume(samplesOfPixels());
@@ -88,17 +88,17 @@ class Gatherer {
 
     /// Chooses the quantum by the first samples of a few pixels, which do not depend on the range of samples
     /// to be traced.
-    float chooseQuantum(PathKernel& kernel) {
+    float chooseQuantum(PathTracerKernel& kernel) {
         constexpr std::uint32_t kSamples = 4096;
         const std::uint32_t end = kernel.firstLookPixel() + kernel.lookPixels();
-        const std::uint32_t wanted = std::min(PathKernel::kMaxSamples, kSamples / kernel.lookPixels());
+        const std::uint32_t wanted = std::min(PathTracerKernel::kMaxSamples, kSamples / kernel.lookPixels());
         return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
             FirstLook sum;
             WorkRange range{kernel.firstLookPixel(), 0, 0, 1};
             while (range.firstSample < wanted) {
                 range.pixels = std::min(kernel.maxPixels(), end - range.firstPixel);
                 kernel.submit(0, range, quantum);
-                const PathKernel::Results results = kernel.wait(0);
+                const PathTracerKernel::Results results = kernel.wait(0);
                 context_.received(results.deviceSeconds, range.size());
                 if (!results.complete) {
                     takeLess(kernel, results);
@@ -120,7 +120,7 @@ class Gatherer {
 
     /// Reduces the work per lane. Some drivers silently end the loops of an invocation after a fixed number
     /// of iterations.
-    void takeLess(PathKernel& kernel, const PathKernel::Results& results) {
+    void takeLess(PathTracerKernel& kernel, const PathTracerKernel::Results& results) {
         if (results.laneSamples == 1) context_.failCutShort();
         kernel.limitLaneSamples(results.laneSamples / 2);
         ++context_.statistics.dispatchesCutShort;
@@ -136,8 +136,8 @@ class Gatherer {
 
     /// Waits for a dispatch and adds its results. If the driver ended its loops early, the dispatch is traced
     /// again with less work per team.
-    void receive(PathKernel& kernel, unsigned place, Schedule& schedule) {
-        const PathKernel::Results results = kernel.wait(place);
+    void receive(PathTracerKernel& kernel, unsigned place, Schedule& schedule) {
+        const PathTracerKernel::Results results = kernel.wait(place);
         context_.received(results.deviceSeconds, results.range.size());
         if (results.complete) {
             add(kernel.addTo(context_.film, place), results.range);
@@ -148,7 +148,7 @@ class Gatherer {
         schedule.retry(results.range);
     }
 
-    void add(const PathKernel::Totals& totals, const WorkRange& range) {
+    void add(const PathTracerKernel::Totals& totals, const WorkRange& range) {
         RenderStatistics& statistics = context_.statistics;
         statistics.samples += range.size();
         statistics.nonFiniteSamples += totals.nonFinite;
@@ -167,8 +167,8 @@ class Gatherer {
 
 }  // namespace
 
-void gather(RenderContext& context) {
-    Gatherer(context).run();
+void tracePaths(RenderContext& context) {
+    PathTracer(context).run();
 }
 
 }  // namespace duolux

@@ -11,20 +11,20 @@
 #include "tests/support/closed_form.h"
 
 // The presets' matrices (eqs. 12-23), closed forms of a uniform enclosure, and both oracles.
-// light_matrix_test.glsl tests the algebra itself.
+// reflectance_matrix_test.glsl tests the algebra itself.
 
 namespace duolux::test {
 namespace {
 
-using mirror::single::Light;
-using Matrix = mirror::single::LightMatrix;
+using mirror::single::Radiance2;
+using Matrix = mirror::single::ReflectanceMatrix;
 
 const ShaderLibrary& algebra() {
-    static const ShaderLibrary library("shaders/lib/light_matrix.glsl");
+    static const ShaderLibrary library("shaders/lib/reflectance_matrix.glsl");
     return library;
 }
 
-Matrix deviceMatrix(const LightMatrix& m) {
+Matrix deviceMatrix(const ReflectanceMatrix& m) {
     return {m.m00, m.m01, m.m10, m.m11};
 }
 
@@ -36,7 +36,7 @@ void expectScatter(const char* preset, Scatter expected) {
     SCOPED_TRACE(preset);
     const std::optional<Reflectance> reflectance = presetReflectance(preset);
     ASSERT_TRUE(reflectance);
-    std::vector<Light> lights;
+    std::vector<Radiance2> lights;
     std::vector<float> opaque, transparent;
     for (const float i : {0.0f, 1.0f, 3.0f}) {
         for (const float v : {0.0f, 2.0f}) {  // always absorbed (eq. 13)
@@ -49,10 +49,10 @@ void expectScatter(const char* preset, Scatter expected) {
             }
         }
     }
-    const std::vector<Light> out = algebra().evaluate<Light>(
-        "Light reflected = lightApply(lightScale(x0, vec3(x2)), x4);"
-        "Light passed = lightApply(lightScale(x1, vec3(x3)), x4);"
-        "result = Light(reflected.invisible + passed.invisible, reflected.visible + passed.visible);",
+    const std::vector<Radiance2> out = algebra().evaluate<Radiance2>(
+        "Radiance2 reflected = matrixApply(scaled(x0, vec3(x2)), x4);"
+        "Radiance2 passed = matrixApply(scaled(x1, vec3(x3)), x4);"
+        "result = Radiance2(reflected.invisible + passed.invisible, reflected.visible + passed.visible);",
         deviceMatrix(reflectance->opaque), deviceMatrix(reflectance->transparent), opaque, transparent,
         lights);
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -77,9 +77,11 @@ TEST(Blend, ScalesWhatPassesAndWhatIsInterreflected) {
     for (const float t : {0.0f, 0.25f, 1.0f}) {
         for (const float o : {0.0f, 0.5f, 1.0f}) {
             const Reflectance blend = blendReflectance(t, o);
-            const Light light{{1.0f, 2.0f, 4.0f}, {8.0f, 16.0f, 32.0f}};
-            const auto reflected = algebra().call<Light>("lightApply", deviceMatrix(blend.opaque), light);
-            const auto passed = algebra().call<Light>("lightApply", deviceMatrix(blend.transparent), light);
+            const Radiance2 light{{1.0f, 2.0f, 4.0f}, {8.0f, 16.0f, 32.0f}};
+            const auto reflected =
+                algebra().call<Radiance2>("matrixApply", deviceMatrix(blend.opaque), light);
+            const auto passed =
+                algebra().call<Radiance2>("matrixApply", deviceMatrix(blend.transparent), light);
             EXPECT_EQ(reflected[0].invisible, o * light.invisible);
             EXPECT_EQ(reflected[0].visible, light.invisible);
             EXPECT_EQ(passed[0].invisible, t * light.invisible);
@@ -92,7 +94,7 @@ TEST(Blend, ScalesWhatPassesAndWhatIsInterreflected) {
 struct Walls {
     std::vector<Matrix> opaque;
     std::vector<glm::vec3> albedo;
-    std::vector<Light> emission;
+    std::vector<Radiance2> emission;
 
     void add(const Matrix& o, const glm::vec3& a) {
         const auto k = static_cast<float>(opaque.size() % 5);
@@ -159,7 +161,7 @@ std::vector<ChannelLight> limitOf(const Walls& walls) {
     return out;
 }
 
-void expectRadiance(const std::vector<Light>& actual, const std::vector<ChannelLight>& expected,
+void expectRadiance(const std::vector<Radiance2>& actual, const std::vector<ChannelLight>& expected,
                     double relative) {
     ASSERT_EQ(actual.size(), expected.size());
     double worst = 0.0;
@@ -176,20 +178,20 @@ void expectRadiance(const std::vector<Light>& actual, const std::vector<ChannelL
 
 /// Light tracer: every event multiplies the radiance from the left, L <- E + rho O L.
 constexpr const char* kShoot =
-    "LightMatrix m = lightScale(x0, x1); result = x2;"
+    "ReflectanceMatrix m = scaled(x0, x1); result = x2;"
     "for (uint i = 0u; i < x3; i++) {"
-    "    Light s = lightApply(m, result);"
-    "    result = Light(x2.invisible + s.invisible, x2.visible + s.visible);"
+    "    Radiance2 s = matrixApply(m, result);"
+    "    result = Radiance2(x2.invisible + s.invisible, x2.visible + s.visible);"
     "}";
 /// Path tracer: W <- W rho O by `multiply`, starting from the identity, and adds W E.
 std::string gatherBy(const std::string& multiply) {
-    return "LightMatrix m = lightScale(x0, x1); LightMatrix w = lightIdentity(); result = x2;"
+    return "ReflectanceMatrix m = scaled(x0, x1); ReflectanceMatrix w = matrixIdentity(); result = x2;"
            "for (uint i = 0u; i < x3; i++) {"
            "    w = " +
            multiply +
            "(w, m);"
-           "    Light s = lightApply(w, x2);"
-           "    result = Light(result.invisible + s.invisible, result.visible + s.visible);"
+           "    Radiance2 s = matrixApply(w, x2);"
+           "    result = Radiance2(result.invisible + s.invisible, result.visible + s.visible);"
            "}";
 }
 
@@ -201,7 +203,8 @@ class Enclosure : public testing::TestWithParam<bool> {
     void expectClosedForms(const std::string& statements) {
         const Walls walls = enclosures(GetParam());
         const auto run = [&](std::uint32_t bounces) {
-            return algebra().evaluate<Light>(statements, walls.opaque, walls.albedo, walls.emission, bounces);
+            return algebra().evaluate<Radiance2>(statements, walls.opaque, walls.albedo, walls.emission,
+                                                 bounces);
         };
         expectRadiance(run(300), limitOf(walls), kSeriesError);
         for (const std::uint32_t bounces : {0u, 1u, 2u, 5u})
@@ -214,8 +217,8 @@ TEST_P(Enclosure, ShootingSumsTheSeries) {
 }
 
 TEST_P(Enclosure, GatheringSumsTheSeries) {
-    expectClosedForms(gatherBy("lightMultiply"));
-    if (!GetParam()) expectClosedForms(gatherBy("lightMultiplyFirstColumn"));
+    expectClosedForms(gatherBy("matrixMultiply"));
+    if (!GetParam()) expectClosedForms(gatherBy("matrixMultiplyFirstColumn"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Walls, Enclosure, testing::Values(false, true),
@@ -223,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(Walls, Enclosure, testing::Values(false, true),
 
 struct Inputs {
     std::vector<Matrix> a, b;
-    std::vector<Light> light;
+    std::vector<Radiance2> light;
     std::vector<glm::vec3> scale;
     std::vector<glm::vec2> rows;
 };
@@ -250,19 +253,19 @@ Inputs algebraInputs() {
     return in;
 }
 
-TEST(LightMatrixOracles, Algebra) {
+TEST(ReflectanceMatrixOracles, Algebra) {
     // Sums of two products of numbers that are not negative: 1.5 ulp, less where they are contracted.
     const Budget budget{3, 0};
     const Inputs in = algebraInputs();
-    EXPECT_ORACLES(algebra(), lightMultiply, budget, in.a, in.b);
-    EXPECT_ORACLES(algebra(), lightMultiplyFirstColumn, budget, in.a, in.b);
-    EXPECT_ORACLES(algebra(), lightApply, budget, in.a, in.light);
-    EXPECT_ORACLES(algebra(), lightScale, budget, in.a, in.scale);
-    EXPECT_ORACLES(algebra(), lightScale, budget, in.light, in.scale);
+    EXPECT_ORACLES(algebra(), matrixMultiply, budget, in.a, in.b);
+    EXPECT_ORACLES(algebra(), matrixMultiplyFirstColumn, budget, in.a, in.b);
+    EXPECT_ORACLES(algebra(), matrixApply, budget, in.a, in.light);
+    EXPECT_ORACLES(algebra(), scaled, budget, in.a, in.scale);
+    EXPECT_ORACLES(algebra(), scaled, budget, in.light, in.scale);
     EXPECT_ORACLES(algebra(), maxComponent, (Budget{0, 0}), in.scale);
-    EXPECT_ORACLES(algebra(), lightWeight, (Budget{3, 0}), in.a, in.rows);
-    const auto identity = algebra().call<Matrix>("lightIdentity");
-    EXPECT_EQ(numbers(identity[0]), numbers(mirror::single::lightIdentity()));
+    EXPECT_ORACLES(algebra(), matrixWeight, (Budget{3, 0}), in.a, in.rows);
+    const auto identity = algebra().call<Matrix>("matrixIdentity");
+    EXPECT_EQ(numbers(identity[0]), numbers(mirror::single::matrixIdentity()));
 }
 
 }  // namespace

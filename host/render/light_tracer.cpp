@@ -2,7 +2,7 @@
 
 #include "host/render/context.h"
 #include "host/render/film_quantum.h"
-#include "host/render/light_kernel.h"
+#include "host/render/light_tracer_kernel.h"
 #include "host/render/schedule.h"
 
 namespace duolux {
@@ -12,9 +12,9 @@ namespace {
 // Light paths are traced in batches of a few dispatches, all of which add to one film on the device. A batch
 // whose dispatches were all complete is added to the film of the render; if the driver cut one short, the
 // batch is discarded and traced again with less work per lane.
-class Shooter {
+class LightTracer {
   public:
-    explicit Shooter(RenderContext& context) : context_(context) {}
+    explicit LightTracer(RenderContext& context) : context_(context) {}
 
     void run() {
         const auto pipelineStart = RenderContext::Clock::now();
@@ -22,7 +22,8 @@ class Shooter {
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxPaths =
             control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : kMaxPaths;
-        LightKernel kernel(context_.inputs(), maxPaths, {control.filmBandPixels, control.noInt64Atomics});
+        LightTracerKernel kernel(context_.inputs(), maxPaths,
+                                 {control.filmBandPixels, control.noInt64Atomics});
         if (control.maxSamplesPerLane > 0) kernel.limitLanePaths(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.lanePaths();
         statistics.pipelineSeconds =
@@ -50,7 +51,7 @@ class Shooter {
         bool complete = true;
     };
 
-    void trace(LightKernel& kernel) {
+    void trace(LightTracerKernel& kernel) {
         RenderStatistics& statistics = context_.statistics;
         context_.begin();
         // Without emitters, all paths are dark.
@@ -79,14 +80,14 @@ class Shooter {
 
     /// Chooses the quantum by the first paths of the whole render, which do not depend on the range of paths
     /// to be traced.
-    float chooseQuantum(LightKernel& kernel) {
+    float chooseQuantum(LightTracerKernel& kernel) {
         constexpr std::uint64_t kPaths = 4096;
         return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
             FirstLook look;
             while (look.samples < kPaths) {
                 const std::uint32_t count = dispatchPaths(kernel, kPaths - look.samples);
                 kernel.submit(0, {look.samples, count}, quantum);
-                const LightKernel::Results results = kernel.wait(0);
+                const LightTracerKernel::Results results = kernel.wait(0);
                 context_.received(results.deviceSeconds, count);
                 if (!results.complete) {
                     takeLess(kernel, results);
@@ -108,7 +109,7 @@ class Shooter {
         });
     }
 
-    void takeLess(LightKernel& kernel, const LightKernel::Results& results) {
+    void takeLess(LightTracerKernel& kernel, const LightTracerKernel::Results& results) {
         if (results.lanePaths == 1) context_.failCutShort();
         kernel.limitLanePaths(results.lanePaths / 2);
         ++context_.statistics.dispatchesCutShort;
@@ -125,7 +126,7 @@ class Shooter {
         return context_.control.firstSample * context_.pixels() + context_.film.lightPaths();
     }
 
-    std::uint32_t dispatchPaths(const LightKernel& kernel, std::uint64_t left) const {
+    std::uint32_t dispatchPaths(const LightTracerKernel& kernel, std::uint64_t left) const {
         double paths = kFirstPaths;
         if (context_.secondsPerSample > 0.0)
             paths = std::max(kDispatchSeconds / context_.secondsPerSample, 64.0);
@@ -133,7 +134,7 @@ class Shooter {
             std::min({paths, static_cast<double>(kernel.maxPaths()), static_cast<double>(left)}));
     }
 
-    Batch traceBatch(LightKernel& kernel, std::uint32_t dispatches) {
+    Batch traceBatch(LightTracerKernel& kernel, std::uint32_t dispatches) {
         Batch batch;
         const std::uint64_t end = nextPath() + context_.samplesTotal() - context_.statistics.samples;
         const std::uint64_t begin = nextPath();
@@ -155,8 +156,8 @@ class Shooter {
         }
     }
 
-    void receive(LightKernel& kernel, unsigned place, Batch& batch) {
-        const LightKernel::Results results = kernel.wait(place);
+    void receive(LightTracerKernel& kernel, unsigned place, Batch& batch) {
+        const LightTracerKernel::Results results = kernel.wait(place);
         context_.received(results.deviceSeconds, results.range.count);
         if (!results.complete) {
             takeLess(kernel, results);
@@ -175,7 +176,7 @@ class Shooter {
         }
     }
 
-    void takeOver(LightKernel& kernel, const Batch& batch) {
+    void takeOver(LightTracerKernel& kernel, const Batch& batch) {
         RenderStatistics& statistics = context_.statistics;
         kernel.takeFilm(context_.film, statistics.gaps);
         context_.film.countLightPaths(batch.paths);
@@ -196,8 +197,8 @@ class Shooter {
 
 }  // namespace
 
-void shoot(RenderContext& context) {
-    Shooter(context).run();
+void traceLightPaths(RenderContext& context) {
+    LightTracer(context).run();
 }
 
 }  // namespace duolux

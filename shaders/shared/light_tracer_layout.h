@@ -1,9 +1,9 @@
-// Records of the light tracer's kernel, in addition to those of path_layout.h, shared by C++ and GLSL (scalar
-// block layout).
-#ifndef DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
-#define DUOLUX_SHADERS_SHARED_LIGHT_LAYOUT_H
+// Records of the light tracer's kernel, in addition to those of path_tracer_layout.h, shared by C++ and GLSL
+// (scalar block layout).
+#ifndef DUOLUX_SHADERS_SHARED_LIGHT_TRACER_LAYOUT_H
+#define DUOLUX_SHADERS_SHARED_LIGHT_TRACER_LAYOUT_H
 
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 DUOLUX_BEGIN
 
@@ -15,7 +15,7 @@ DUOLUX_CONST uint kFilmSums = 6u;
 DUOLUX_CONST float kStatisticsQuanta = 4096.0f;
 
 // A range of light paths. Each path has a unique 64-bit number (low, high).
-struct LightDispatch {
+struct LightTracerDispatch {
     uint firstLow;
     uint firstHigh;
     uint count;
@@ -40,7 +40,7 @@ struct LaneResult {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LaneResult) == 52 && sizeof(LightDispatch) == 28);
+static_assert(sizeof(LaneResult) == 52 && sizeof(LightTracerDispatch) == 28);
 #endif
 
 DUOLUX_END

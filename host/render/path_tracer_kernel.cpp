@@ -1,4 +1,4 @@
-#include "host/render/path_kernel.h"
+#include "host/render/path_tracer_kernel.h"
 
 #include <algorithm>
 #include <cassert>
@@ -53,8 +53,8 @@ Buffer uploadPixels(const Device& device, std::span<const std::uint32_t> pixels,
 
 }  // namespace
 
-PathKernel::PathKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels,
-                       std::uint32_t maxPixels, bool closedForm)
+PathTracerKernel::PathTracerKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels,
+                                   std::uint32_t maxPixels, bool closedForm)
     : laneSamples_(lanePaths(inputs.deviceScene)),
       maxPixels_(maxPixels),
       lookPixels_(std::min(inputs.settings.width, 64u) * std::min(inputs.settings.height, 64u)),
@@ -71,37 +71,37 @@ PathKernel::PathKernel(const RenderInputs& inputs, std::span<const std::uint32_t
           inputs.device,
           std::max(2 * sizeof(std::int64_t) * maxPixels * layerChannels_, sizeof(std::int64_t)), "layers")),
       kernel_(inputs.device, "path",
-              variantFor(inputs.deviceScene.tuning.layout, spirv::kPathKernelTexel, spirv::kPathKernelStorage,
-                         spirv::kPathKernelRayQuery),
+              variantFor(inputs.deviceScene.tuning.layout, spirv::kPathTracerTexel, spirv::kPathTracerStorage,
+                         spirv::kPathTracerRayQuery),
               pathBindings(sceneBindings(inputs.deviceScene, params_), pixelOrder_, results_, layerResults_,
                            teams_),
-              specialize(inputs, closedForm), sizeof(shared::DispatchParams)),
+              specialize(inputs, closedForm), sizeof(shared::PathTracerDispatch)),
       commands_{CommandSlot(inputs.device), CommandSlot(inputs.device)} {}
 
-std::uint64_t PathKernel::deviceBytes() const {
+std::uint64_t PathTracerKernel::deviceBytes() const {
     return params_.allocated() + pixelOrder_.allocated() + results_.allocated() + layerResults_.allocated() +
            teams_.deviceBytes();
 }
 
-void PathKernel::submit(unsigned place, const WorkRange& range, float quantum) {
+void PathTracerKernel::submit(unsigned place, const WorkRange& range, float quantum) {
     assert(range.pixels <= maxPixels_ && range.samples <= std::min(kMaxSamples, laneSamples_));
     const std::uint32_t teamPixels = teams_.share(range.pixels, laneSamples_ / range.samples);
     submitted_[place] = {range, teamPixels};
-    const shared::DispatchParams push{range.firstPixel,        range.pixels,  range.firstSample,
-                                      range.samples,           teamPixels,    place * maxPixels_,
-                                      teams_.firstTeam(place), 1.0f / quantum};
+    const shared::PathTracerDispatch push{range.firstPixel,        range.pixels,  range.firstSample,
+                                          range.samples,           teamPixels,    place * maxPixels_,
+                                          teams_.firstTeam(place), 1.0f / quantum};
     commands_[place].submit("tracing paths", [&](const Commands& commands) {
         teams_.record(commands, kernel_, push, place, range.pixels, teamPixels);
     });
 }
 
-PathKernel::Results PathKernel::wait(unsigned place) {
+PathTracerKernel::Results PathTracerKernel::wait(unsigned place) {
     const double seconds = commands_[place].wait("tracing paths");
     const auto& [range, teamPixels] = submitted_[place];
     return {range, teamPixels / teams_.lanes() * range.samples, teams_.complete(place), seconds};
 }
 
-PathKernel::Totals PathKernel::read(unsigned place) {
+PathTracerKernel::Totals PathTracerKernel::read(unsigned place) {
     results_.invalidate();
     const WorkRange& range = submitted_[place].range;
     const auto* results =
@@ -126,7 +126,7 @@ PathKernel::Totals PathKernel::read(unsigned place) {
     return totals;
 }
 
-PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
+PathTracerKernel::Totals PathTracerKernel::addTo(Film& film, unsigned place) {
     const Totals totals = read(place);
     const WorkRange& range = submitted_[place].range;
     layerResults_.invalidate();
@@ -140,7 +140,7 @@ PathKernel::Totals PathKernel::addTo(Film& film, unsigned place) {
     return totals;
 }
 
-FirstLook PathKernel::look(unsigned place) {
+FirstLook PathTracerKernel::look(unsigned place) {
     FirstLook look;
     look.clamped = read(place).clamped;
     look.samples = submitted_[place].range.size();

@@ -16,12 +16,12 @@
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
 #include "host/vk/kernel.h"
-#include "shaders/shared/path_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 namespace duolux {
 
 /// The kernel of the path tracer, specialised for a scene. Pixels are numbered in the order of `pixels`.
-class PathKernel {
+class PathTracerKernel {
   public:
     /// Largest number of samples of a pixel in one dispatch. Their sum fits into the device's 64 bits
     /// (film.glsl clamps a sample to shared::kFilmLargest).
@@ -31,8 +31,8 @@ class PathKernel {
 
     /// `maxPixels`: largest number of pixels in one dispatch. `closedForm`: direct light is computed in
     /// closed form instead of being sampled. The device scene and `pixels` must outlive this object.
-    PathKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels, std::uint32_t maxPixels,
-               bool closedForm);
+    PathTracerKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels,
+                     std::uint32_t maxPixels, bool closedForm);
 
     std::uint32_t maxPixels() const { return maxPixels_; }
     std::uint64_t deviceBytes() const;

@@ -1,7 +1,7 @@
 // Parameters and records of the path tracer's kernel, in part also used by the light tracer's,
 // shared by C++ and GLSL (scalar block layout).
-#ifndef DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
-#define DUOLUX_SHADERS_SHARED_PATH_LAYOUT_H
+#ifndef DUOLUX_SHADERS_SHARED_PATH_TRACER_LAYOUT_H
+#define DUOLUX_SHADERS_SHARED_PATH_TRACER_LAYOUT_H
 
 #include "shaders/shared/camera_layout.h"
 #include "shaders/shared/emitter_layout.h"
@@ -24,13 +24,13 @@ DUOLUX_CONST uint kDirectLightClosedForm =
     2u;  // by Lambert's formula for each emitter; only where nothing can block an emitter
 
 // The transmittance of a segment between two points, for the whole scene.
-DUOLUX_CONST uint kTransmittanceZero = 0u;  // every T is 0: any surface hides what is behind it
-DUOLUX_CONST uint kTransmittanceIdentity =
-    1u;  // every T passes the components that carry importance unchanged
-DUOLUX_CONST uint kTransmittanceGeneral = 2u;  // a product of 2x2 matrices, in order
+DUOLUX_CONST uint kTransparencyZero = 0u;  // every T is 0: any surface hides what is behind it
+DUOLUX_CONST uint kTransparencyIdentity =
+    1u;                                       // every T passes the components that carry importance unchanged
+DUOLUX_CONST uint kTransparencyGeneral = 2u;  // a product of 2x2 matrices, in order
 
-// A LightMatrix: entry ij maps component j to component i, per channel; 0 = invisible, 1 = visible.
-struct DeviceLightMatrix {
+// A ReflectanceMatrix: entry ij maps component j to component i, per channel; 0 = invisible, 1 = visible.
+struct DeviceReflectanceMatrix {
     vec3 m00;
     vec3 m01;
     vec3 m10;
@@ -41,8 +41,8 @@ struct PathParams {
     DeviceCamera camera;
     uint seed;
     uint bounces;  // largest number of scattering events on a path
-    DeviceLightMatrix opaque;
-    DeviceLightMatrix transparent;
+    DeviceReflectanceMatrix opaque;
+    DeviceReflectanceMatrix transparent;
     vec2 rowWeight;     // weights of the components (invisible, visible) of a pixel in the distribution of
                         // work; their sum is 1
     vec2 display;       // the row d of eq. 8
@@ -54,7 +54,7 @@ struct PathParams {
     vec3 emitterUpper;
 };
 
-struct DispatchParams {
+struct PathTracerDispatch {
     uint firstPixel;
     uint pixelCount;
     uint firstSample;
@@ -92,7 +92,7 @@ DUOLUX_CONST uint kNormalTexels = 1u;  // three octahedral 2 x snorm16 unit vect
 DUOLUX_CONST uint kColourTexels = 1u;
 
 #ifdef __cplusplus
-static_assert(sizeof(DeviceLightMatrix) == 48 && sizeof(PixelResult) == 80);
+static_assert(sizeof(DeviceReflectanceMatrix) == 48 && sizeof(PixelResult) == 80);
 static_assert(offsetof(PathParams, opaque) == 84 && offsetof(PathParams, rowWeight) == 180);
 static_assert(offsetof(PathParams, emitterRoot) == 204 && sizeof(PathParams) == 232);
 

@@ -3,7 +3,7 @@
 //
 // A team of lanes takes some samples of each of a range of pixels. Path rays and shadow rays share one traversal, which
 // lanes leave and enter as they finish and begin rays. All crossings along a ray are met in order: at each, emission and
-// direct light are gathered, and one of them is chosen, in proportion to the importance that it would carry, to continue
+// direct light are added, and one of them is chosen, in proportion to the importance that it would carry, to continue
 // from.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,14 +18,14 @@ layout(constant_id = kSpecHasEmitters) const bool kHasEmitters = true;
 
 layout(binding = kBindingPixels, rgba32ui) uniform readonly uimageBuffer pixelTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { PixelResult results[]; };
-layout(push_constant, scalar) uniform DispatchBlock { DispatchParams dispatch; };
+layout(push_constant, scalar) uniform DispatchBlock { PathTracerDispatch dispatch; };
 
 #include "shaders/kernels/segment.glsl"
 #include "shaders/kernels/camera_path.glsl"
 #include "shaders/kernels/direct_light.glsl"
 #include "shaders/kernels/team.glsl"
 
-// Whether anything can be gathered after a scattering event. (Nothing in between means T without a second column.)
+// Whether a path can find emission after a scattering event. (The closed form is used where T has no second column.)
 const bool kPathsContinue = kDirectLight != kDirectLightClosedForm || kInvisibleScatters;
 
 // The path continues from the chosen vertex of the segment, or ends.
@@ -41,7 +41,7 @@ void endSegment(inout Path path, inout Vertex vertex) {
 
     vec2 u = drawPair(path.stream, sampleDimension(path.scatterings, 0u, kDimensionDirection));
     BsdfSample s = scatter(vertex, -path.segment.direction, u, path.stream, path.scatterings, kModeRadiance);
-    path.importance = lightScale(path.scattered, s.weight * (weightSum / (vertex.weight * survival)));
+    path.importance = scaled(path.scattered, s.weight * (weightSum / (vertex.weight * survival)));
     path.segment = leaveVertex(vertex.point, s.wi);
     path.bsdfPdf = s.pdf;
     path.scatterings += 1u;
@@ -50,34 +50,34 @@ void endSegment(inout Path path, inout Vertex vertex) {
 }
 
 // The path has met a surface: emission, direct light, a candidate for scattering, and the crossing.
-void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout Gathered gathered, Traversal ray,
-                 Triangle tri) {
+void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout SampleRadiance received,
+                 Traversal ray, Triangle tri) {
     SurfaceHit hit = meetTriangle(path.segment, path.crossings, ray, tri);
-    LightMatrix w = importanceOf(path);
+    ReflectanceMatrix w = importanceOf(path);
     vec3 wo = -path.segment.direction;
     if (kLayerNormal && onCameraSegment(path)) layers.normal = hit.point.shadingNormal;
-    if (kHasEmitters) collectEmission(gathered, path, hit, w, ray.t, tri.primitive);
+    if (kHasEmitters) collectEmission(received, path, hit, w, ray.t, tri.primitive);
 
-    LightMatrix scattered = multiply(w, opaqueOf(hit.materialIndex));
+    ReflectanceMatrix scattered = multiply(w, opaqueOf(hit.materialIndex));
     vec3 albedo = bsdfAlbedo(hit.material.bsdf, frameOf(hit.point), wo);
-    float weight = lightWeight(lightScale(scattered, albedo), params.rowWeight);
+    float weight = matrixWeight(scaled(scattered, albedo), params.rowWeight);
     if (path.scatterings < params.bounces && materialScatters(hit.material, hit.front) && weight > 0.0) {
-        if (kDirectLight == kDirectLightClosedForm) gatherClosedForm(gathered, hit, scattered, path.scatterings + 1u);
+        if (kDirectLight == kDirectLightClosedForm) addClosedForm(received, hit, scattered, path.scatterings + 1u);
         if (kDirectLight == kDirectLightSampled) {
-            uint light = sampleDimension(path.scatterings, path.crossings, kDimensionEmitter);
-            connectToEmitter(shadow, gathered, hit, scattered, wo, drawWords(path.stream, light), path.scatterings + 1u);
+            uvec2 u = drawWords(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionEmitter));
+            connectToEmitter(shadow, received, hit, scattered, wo, u, path.scatterings + 1u);
         }
         float u = 0.0;
-        if (kTransmittance != kTransmittanceZero && kPathsContinue) {
+        if (kTransparency != kTransparencyZero && kPathsContinue) {
             u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionCrossing));
         }
         if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }
 
     bool passes = false;
-    if (kTransmittance != kTransmittanceZero && canCross(w)) {
+    if (kTransparency != kTransparencyZero && canCross(w)) {
         path.importance = multiply(w, transparentOf(hit.materialIndex));
-        LightMatrix m = path.importance;
+        ReflectanceMatrix m = path.importance;
         passes = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
         crossSurface(path.segment, ray);
         path.crossings += 1u;
@@ -105,7 +105,7 @@ Traversal nextRay(Path path, Shadow shadow, bool inEmitterTree, inout PixelSums 
                                    shadow.pending ? shadow.segment.t : path.segment.t,
                                    shadow.pending ? shadow.segment.order : path.segment.order,
                                    shadow.pending ? shadow.distance : kInfinity,
-                                   shadow.pending && kTransmittance == kTransmittanceZero);
+                                   shadow.pending && kTransparency == kTransparencyZero);
     if (kPlanes && shadow.pending) ray.order = shadow.beforeOrder;
     return ray;
 }
@@ -121,7 +121,7 @@ void main() {
     uint endSample = dispatch.firstSample + dispatch.sampleCount;
     PixelSums sums = emptyPixelSums();
     emptyLayers();
-    Gathered gathered = nothingGathered();
+    SampleRadiance received = noRadiance();
     Vertex vertex;
     vertex.weightSum = 0.0;
     Shadow shadow;
@@ -137,15 +137,15 @@ void main() {
                 bool found = ray.triangle != kNoTriangle;
                 Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
                 if (shadow.pending) {
-                    continueShadow(shadow, gathered, ray, found, tri.materialFlags & kMaterialMask);
+                    continueShadow(shadow, received, ray, found, tri.materialFlags & kMaterialMask);
                 } else if (found) {
-                    meetSurface(path, vertex, shadow, gathered, ray, tri);
+                    meetSurface(path, vertex, shadow, received, ray, tri);
                 } else {
                     endSegment(path, vertex);
                 }
 
                 bool emissionOnly = onlyEmissionLeft(path) && !onCameraSegment(path);
-                if (kTransmittance == kTransmittanceIdentity) {
+                if (kTransparency == kTransparencyIdentity) {
                     // Most rays that only look for emitters, and that nothing stops, pass far from all of them.
                     while (emissionOnly && !path.ended &&
                            !intersectBox(path.segment.origin, path.segment.direction, path.segment.t, params.emitterLower,
@@ -158,12 +158,12 @@ void main() {
                     kHasEmitters && (kDirectLight != kDirectLightClosedForm || path.scatterings == 0u);
                 if (emissionOnly && !emissionCounts) path.ended = true;
                 // Emitters along a ray that nothing else can stop are found in their own small tree.
-                bool inEmitterTree = kTransmittance == kTransmittanceIdentity && emissionOnly;
+                bool inEmitterTree = kTransparency == kTransparencyIdentity && emissionOnly;
                 if (path.ended && !shadow.pending) {
-                    addSample(sums, gathered, dispatch.inverseQuantum,
+                    addSample(sums, received, dispatch.inverseQuantum,
                               filmRounding(path.stream.x, path.stream.y, kDimensionPixel, params.seed));
                     addLayers();
-                    gathered = nothingGathered();
+                    received = noRadiance();
                     path = cameraPath(path.stream + uvec2(0u, 1u));
                     inEmitterTree = false;
                 }

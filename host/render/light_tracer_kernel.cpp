@@ -1,4 +1,4 @@
-#include "host/render/light_kernel.h"
+#include "host/render/light_tracer_kernel.h"
 
 #include <fmt/format.h>
 
@@ -57,7 +57,7 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
 std::vector<Specialization> specialize(const RenderInputs& inputs, std::size_t bands,
                                        std::uint32_t bandPixels) {
     std::vector<Specialization> constants = sceneSpecialization(inputs);
-    constants.push_back({shared::kSpecCameraTransmittance, inputs.deviceScene.traits.cameraTransmittance});
+    constants.push_back({shared::kSpecCameraTransparency, inputs.deviceScene.traits.cameraTransparency});
     constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
     constants.push_back({shared::kSpecBandPixels, bandPixels});
     return constants;
@@ -65,16 +65,16 @@ std::vector<Specialization> specialize(const RenderInputs& inputs, std::size_t b
 
 std::span<const std::uint32_t> chooseVariant(const Device& device, Layout layout, bool noInt64Atomics) {
     if (device.info().int64Atomics && !noInt64Atomics) {
-        return variantFor(layout, spirv::kLightKernelInt64Texel, spirv::kLightKernelInt64Storage,
-                          spirv::kLightKernelInt64RayQuery);
+        return variantFor(layout, spirv::kLightTracerInt64Texel, spirv::kLightTracerInt64Storage,
+                          spirv::kLightTracerInt64RayQuery);
     }
-    return variantFor(layout, spirv::kLightKernelTexel, spirv::kLightKernelStorage,
-                      spirv::kLightKernelRayQuery);
+    return variantFor(layout, spirv::kLightTracerTexel, spirv::kLightTracerStorage,
+                      spirv::kLightTracerRayQuery);
 }
 
 }  // namespace
 
-LightKernel::LightKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits)
+LightTracerKernel::LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits)
     : device_(&inputs.device),
       lanePaths_(duolux::lanePaths(inputs.deviceScene)),
       maxPaths_(maxPaths),
@@ -91,12 +91,12 @@ LightKernel::LightKernel(const RenderInputs& inputs, std::uint32_t maxPaths, con
       kernel_(inputs.device, "light",
               chooseVariant(inputs.device, inputs.deviceScene.tuning.layout, limits.noInt64Atomics),
               lightBindings(sceneBindings(inputs.deviceScene, params_), results_, teams_, film_),
-              specialize(inputs, film_.size(), bandPixels_), sizeof(shared::LightDispatch)),
+              specialize(inputs, film_.size(), bandPixels_), sizeof(shared::LightTracerDispatch)),
       commands_{CommandSlot(inputs.device), CommandSlot(inputs.device)} {
     clearFilm();
 }
 
-std::uint64_t LightKernel::deviceBytes() const {
+std::uint64_t LightTracerKernel::deviceBytes() const {
     std::uint64_t bytes =
         params_.allocated() + results_.allocated() + filmRead_.allocated() + teams_.deviceBytes();
     for (const Buffer& band : film_)
@@ -104,24 +104,24 @@ std::uint64_t LightKernel::deviceBytes() const {
     return bytes;
 }
 
-void LightKernel::submit(unsigned place, const PathRange& range, float quantum) {
+void LightTracerKernel::submit(unsigned place, const PathRange& range, float quantum) {
     assert(range.count > 0 && range.count <= maxPaths_);
     const std::uint32_t teamPaths = teams_.share(range.count, lanePaths_);
     const std::uint32_t lanes = (range.count + teamPaths - 1) / teamPaths * teams_.lanes();
     submitted_[place] = {range, teamPaths, lanes};
-    const shared::LightDispatch push{static_cast<std::uint32_t>(range.first),
-                                     static_cast<std::uint32_t>(range.first >> 32),
-                                     range.count,
-                                     teamPaths,
-                                     place * maxLanes_,
-                                     teams_.firstTeam(place),
-                                     1.0f / quantum};
+    const shared::LightTracerDispatch push{static_cast<std::uint32_t>(range.first),
+                                           static_cast<std::uint32_t>(range.first >> 32),
+                                           range.count,
+                                           teamPaths,
+                                           place * maxLanes_,
+                                           teams_.firstTeam(place),
+                                           1.0f / quantum};
     commands_[place].submit("tracing light paths", [&](const Commands& commands) {
         teams_.record(commands, kernel_, push, place, range.count, teamPaths);
     });
 }
 
-LightKernel::Results LightKernel::wait(unsigned place) {
+LightTracerKernel::Results LightTracerKernel::wait(unsigned place) {
     const double seconds = commands_[place].wait("tracing light paths");
     results_.invalidate();
     const auto& [range, teamPaths, lanes] = submitted_[place];
@@ -130,7 +130,7 @@ LightKernel::Results LightKernel::wait(unsigned place) {
     return {range, teamPaths / teams_.lanes(), teams_.complete(place), {results, lanes}, seconds};
 }
 
-void LightKernel::takeFilm(Film& film, bool& partly) {
+void LightTracerKernel::takeFilm(Film& film, bool& partly) {
     std::uint32_t bandBegin = 0;
     for (const Buffer& band : film_) {
         const std::uint32_t bandEnd = std::min(bandBegin + bandPixels_, pixels_);
@@ -141,14 +141,15 @@ void LightKernel::takeFilm(Film& film, bool& partly) {
                 commands.copy(band, (first - bandBegin) * kPixelBytes, filmRead_, 0, count * kPixelBytes);
             });
             filmRead_.invalidate();
-            film.addLight(first, {reinterpret_cast<const Film::PixelSum*>(filmRead_.mapped()), count});
+            film.addLightPathSums(first,
+                                  {reinterpret_cast<const Film::PixelSum*>(filmRead_.mapped()), count});
             partly = first + count < pixels_;
         }
         bandBegin = bandEnd;
     }
 }
 
-void LightKernel::clearFilm() {
+void LightTracerKernel::clearFilm() {
     runOnce(*device_, "clearing the film", [&](const Commands& commands) {
         commands.barrier(Work::kAll, Work::kTransfers);
         for (const Buffer& band : film_)

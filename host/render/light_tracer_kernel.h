@@ -12,7 +12,7 @@
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
 #include "host/vk/kernel.h"
-#include "shaders/shared/light_layout.h"
+#include "shaders/shared/light_tracer_layout.h"
 
 namespace duolux {
 
@@ -23,7 +23,7 @@ struct PathRange {
 };
 
 /// The kernel of the light tracer, specialised for a scene, with a film on the device.
-class LightKernel {
+class LightTracerKernel {
   public:
     /// For tests: overrides choices that depend on the device. The image stays bitwise identical.
     struct Limits {
@@ -33,12 +33,12 @@ class LightKernel {
 
     /// `maxPaths`: largest number of paths in one dispatch. The device scene must outlive this object. Throws
     /// MachineError if the device cannot hold a film of the scene's size.
-    LightKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits);
+    LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits);
 
     std::uint32_t maxPaths() const { return maxPaths_; }
     std::uint64_t deviceBytes() const;
 
-    /// Number of paths that a lane traces in one dispatch; see PathKernel::laneSamples.
+    /// Number of paths that a lane traces in one dispatch; see PathTracerKernel::laneSamples.
     std::uint32_t lanePaths() const { return lanePaths_; }
     void limitLanePaths(std::uint32_t paths) { lanePaths_ = std::min(lanePaths_, paths); }
 
