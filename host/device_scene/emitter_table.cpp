@@ -81,7 +81,8 @@ EmitterTable buildEmitterTable(const Scene& scene, std::span<const std::uint32_t
         record.v0 = geometry.positions[index.x];
         record.v1 = geometry.positions[index.y];
         record.v2 = geometry.positions[index.z];
-        record.flags = shared::kEmitterFront | (emission.sides == Sides::kBoth ? shared::kEmitterBack : 0u);
+        record.flags = shared::kEmitterKindTriangle | shared::kEmitterFront |
+                       (emission.sides == Sides::kBoth ? shared::kEmitterBack : 0u);
         record.positionError = pointErrorOf(record.v0, record.v1, record.v2);
         record.invisible = emission.invisible;
         record.visible = emission.visible;
@@ -91,7 +92,7 @@ EmitterTable buildEmitterTable(const Scene& scene, std::span<const std::uint32_t
     for (const PointEmitter& point : scene.pointEmitters) {
         shared::DeviceEmitter record{};
         record.v0 = point.position;
-        record.flags = shared::kEmitterPoint;
+        record.flags = shared::kEmitterKindPoint;
         record.invisible = point.invisible;
         record.visible = point.visible;
         table.records.push_back(record);

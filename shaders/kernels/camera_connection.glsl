@@ -71,7 +71,8 @@ vec3 directionToCamera(vec3 point) { return connectToCamera(params.camera, point
 // Sets up a ray to the camera.
 void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     CameraConnection camera = connectToCamera(params.camera, outgoing.point.position);
-    float cosine = max(dot(outgoing.point.geometricNormal, camera.direction), 0.0);
+    float cosine = dot(outgoing.point.geometricNormal, camera.direction);
+    cosine = kTransmits ? abs(cosine) : max(cosine, 0.0);
     Radiance2 arriving = scaled(outgoing.intensity, vec3(cosine * camera.importance));
     // Light that counts less than its brightness, by components that are not displayed, is connected less often.
     float brightness = maxComponent(max(arriving.invisible, arriving.visible));
@@ -80,8 +81,8 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     // So is what a surface sends in a flat direction, which is dim by the cosine: a sixth of the rays for 6 to 8 % of
     // variance.
     survival *= outgoing.scatterings > 0u ? min(3.0 * cosine, 1.0) : 1.0;
-    uint dimension = sampleDimension(outgoing.scatterings, path.crossings, kDimensionConnection);
-    float roulette = drawChoice(path.stream, dimension);
+    float roulette =
+        drawChoice(path.stream, sampleDimension(outgoing.scatterings, path.crossings, kDimensionConnection));
     // Written so that NaN is traced, and counted when it arrives.
     connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
     connection.segment = leaveVertex(outgoing.point, camera.direction);
@@ -91,7 +92,7 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     connection.survival = survival;
     connection.pixel = camera.pixel;
     connection.scatterings = outgoing.scatterings;
-    connection.dimension = dimension;
+    connection.dimension = sampleDimension(outgoing.scatterings, path.crossings, kDimensionRounding);
 }
 
 // The ray to the camera has met a surface, or nothing more.

@@ -161,7 +161,7 @@ void main() {
                 bool inEmitterTree = kTransparency == kTransparencyIdentity && emissionOnly;
                 if (path.ended && !shadow.pending) {
                     addSample(sums, received, dispatch.inverseQuantum,
-                              filmRounding(path.stream.x, path.stream.y, kDimensionPixel, params.seed));
+                              filmRounding(path.stream.x, path.stream.y, kDimensionRounding, params.seed));
                     addLayers();
                     received = noRadiance();
                     path = cameraPath(path.stream + uvec2(0u, 1u));

@@ -62,7 +62,7 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
         // Directions below the shading normal's horizon have only the density around the normal of the mode.
         if (facet && dot(frame.shading, s.wi) <= 0.0) s.pdf = 0.0;
     }
-    if (dot(frame.geometric, s.wi) <= 0.0) s.pdf = 0.0;
+    if (!kTransmits && dot(frame.geometric, s.wi) <= 0.0) s.pdf = 0.0;
     return s;
 }
 

@@ -8,12 +8,12 @@
 #include "shaders/lib/emitter/triangle.glsl"
 #include "shaders/lib/rng.glsl"
 
-layout(constant_id = kSpecEmitterKinds) const uint kEmitterKinds = 3u;
+layout(constant_id = kSpecEmitterKinds) const uint kEmitterKinds = 24u;
 
-const bool kTriangleEmitters = (kEmitterKinds & kEmitterKindTriangle) != 0u;
-const bool kPointEmitters = (kEmitterKinds & kEmitterKindPoint) != 0u;
-
-bool isPoint(Emitter emitter) { return kPointEmitters && (!kTriangleEmitters || isPointEmitter(emitter)); }
+// Whether an emitter is of a kind. Known without its record in a scene that has one kind only.
+bool isKind(Emitter emitter, uint kind) {
+    return kEmitterKinds == kind || ((kEmitterKinds & kind) != 0u && (emitter.flags & kind) != 0u);
+}
 
 // An emitter chosen with the probability that its density holds, and a uniform point of the unit square, for a point on
 // it.
@@ -39,11 +39,12 @@ EmitterChoice chooseEmitter(uint emitterCount, uvec2 u) {
 EmitterSample sampleEmitter(uint emitterCount, vec3 point, uvec2 u) {
     EmitterChoice choice = chooseEmitter(emitterCount, u);
     Emitter emitter = fetchEmitter(choice.index);
-    if (isPoint(emitter)) return samplePointEmitter(emitter, choice.index, point);
+    if (isKind(emitter, kEmitterKindPoint)) return samplePointEmitter(emitter, choice.index, point);
     return sampleTriangleEmitter(emitter, choice.index, point, choice.u);
 }
 
-// The density per steradian with which sampleEmitter samples the direction in which a ray has met this emitter.
+// The density per steradian with which sampleEmitter samples the direction in which a ray has met this emitter, which
+// only a triangle can be.
 float emitterPdf(Emitter emitter, float distanceSquared, float cosAtEmitter) {
     return pdfAreaToSolidAngle(emitter.density, distanceSquared, cosAtEmitter);
 }
@@ -54,7 +55,7 @@ Radiance2 irradianceFromEmitters(uint emitterCount, vec3 point, vec3 normal) {
     for (uint i = 0u; i < emitterCount; i++) {
         Emitter emitter = fetchEmitter(i);
         Radiance2 light = Radiance2(vec3(0.0), vec3(0.0));
-        if (isPoint(emitter)) {
+        if (isKind(emitter, kEmitterKindPoint)) {
             light = irradianceFromPoint(emitter, point, normal);
         } else {
             light = irradianceFromTriangle(emitter, point, normal);
@@ -66,21 +67,19 @@ Radiance2 irradianceFromEmitters(uint emitterCount, vec3 point, vec3 normal) {
 }
 
 EmitterPoint pointOnEmitter(Emitter emitter, vec2 u) {
-    if (isPoint(emitter)) return EmitterPoint(emitter.v0, vec3(0.0, 0.0, 1.0), 0.0);
+    if (isKind(emitter, kEmitterKindPoint)) return pointOnPointEmitter(emitter);
     return pointOnTriangleEmitter(emitter, u);
 }
 
 // A light path that leaves from this point.
 EmittedRay emitRay(Emitter emitter, EmitterPoint on, float side, vec2 u) {
-    if (isPoint(emitter)) return emitFromPoint(emitter, u);
+    if (isKind(emitter, kEmitterKindPoint)) return emitFromPoint(emitter, u);
     return emitFromTriangle(emitter, on, side, u);
 }
 
-// The camera cannot see a point emitter.
 EmitterSeen seeEmitter(Emitter emitter, EmitterPoint on, vec3 toCamera) {
-    EmitterSeen seen = seeTriangleEmitter(emitter, on, toCamera);
-    if (isPoint(emitter)) seen.intensity = Radiance2(vec3(0.0), vec3(0.0));
-    return seen;
+    if (isKind(emitter, kEmitterKindPoint)) return seePointEmitter(emitter, toCamera);
+    return seeTriangleEmitter(emitter, on, toCamera);
 }
 
 // Balance heuristic: the weight of the strategy with density a.

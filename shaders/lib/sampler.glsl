@@ -8,7 +8,7 @@
 
 // The purpose of a number or a pair of numbers. Scattering events, crossings and purpose together are the dimension,
 // which has room for more purposes (a lens, the wavelength).
-const uint kDimensionPixel = 0u;       // place in the pixel, and the film's rounding
+const uint kDimensionPixel = 0u;       // place in the pixel
 const uint kDimensionEmitter = 1u;     // point on an emitter
 const uint kDimensionDirection = 2u;   // scattered direction
 const uint kDimensionRoulette = 3u;    // whether a path continues
@@ -16,7 +16,8 @@ const uint kDimensionCrossing = 4u;    // from which of the surfaces along a seg
 const uint kDimensionLobe = 5u;        // lobe of the BSDF
 const uint kDimensionEmission = 6u;    // direction from the emitter
 const uint kDimensionSide = 7u;        // side of the emitter
-const uint kDimensionConnection = 8u;  // whether a light path is connected to the camera, and the film's rounding
+const uint kDimensionConnection = 8u;  // whether a light path is connected to the camera
+const uint kDimensionRounding = 9u;    // of radiance to quanta of the film
 
 // `scattering`: scattering events before the vertex, fewer than 65536; `crossing`: surfaces crossed since the last one,
 // fewer than 4096.

@@ -83,21 +83,27 @@ vec4 unpackBytes(uint x) {
     return vec4(float(int(x & 255u)), float(int((x >> 8u) & 255u)), float(int((x >> 16u) & 255u)), float(int(x >> 24u)));
 }
 
+// Four children of a node: a byte of every word each (WideNode).
+struct FourChildren {
+    uint meta;
+    uvec3 lower;
+    uvec3 upper;
+};
+
 // Slab tests of four children. Returns bits: inner nodes from bit 24 in visiting order, pairs from bit 0.
-uint intersectFourChildren(Traversal r, vec3 scale, vec3 offset, uint meta, uint lowerX, uint lowerY, uint lowerZ,
-                           uint upperX, uint upperY, uint upperZ) {
-    vec4 nearX = unpackBytes(r.inverse.x < 0.0 ? upperX : lowerX) * scale.x + offset.x;
-    vec4 farX = unpackBytes(r.inverse.x < 0.0 ? lowerX : upperX) * scale.x + offset.x;
-    vec4 nearY = unpackBytes(r.inverse.y < 0.0 ? upperY : lowerY) * scale.y + offset.y;
-    vec4 farY = unpackBytes(r.inverse.y < 0.0 ? lowerY : upperY) * scale.y + offset.y;
-    vec4 nearZ = unpackBytes(r.inverse.z < 0.0 ? upperZ : lowerZ) * scale.z + offset.z;
-    vec4 farZ = unpackBytes(r.inverse.z < 0.0 ? lowerZ : upperZ) * scale.z + offset.z;
+uint intersectFourChildren(Traversal r, vec3 scale, vec3 offset, FourChildren c) {
+    vec4 nearX = unpackBytes(r.inverse.x < 0.0 ? c.upper.x : c.lower.x) * scale.x + offset.x;
+    vec4 farX = unpackBytes(r.inverse.x < 0.0 ? c.lower.x : c.upper.x) * scale.x + offset.x;
+    vec4 nearY = unpackBytes(r.inverse.y < 0.0 ? c.upper.y : c.lower.y) * scale.y + offset.y;
+    vec4 farY = unpackBytes(r.inverse.y < 0.0 ? c.lower.y : c.upper.y) * scale.y + offset.y;
+    vec4 nearZ = unpackBytes(r.inverse.z < 0.0 ? c.upper.z : c.lower.z) * scale.z + offset.z;
+    vec4 farZ = unpackBytes(r.inverse.z < 0.0 ? c.lower.z : c.upper.z) * scale.z + offset.z;
 
     // The meta byte of an inner child is 0x20 | (24 + slot); bits 3 and 4 are both set only in inner children.
-    uint isInner = (meta & (meta << 1u)) & 0x10101010u;
+    uint isInner = (c.meta & (c.meta << 1u)) & 0x10101010u;
     uint innerBytes = (isInner >> 4u) * 255u;
-    uint bitIndices = (meta ^ ((r.octant * 0x01010101u) & innerBytes)) & 0x1f1f1f1fu;
-    uint childBits = (meta >> 5u) & 0x07070707u;
+    uint bitIndices = (c.meta ^ ((r.octant * 0x01010101u) & innerBytes)) & 0x1f1f1f1fu;
+    uint childBits = (c.meta >> 5u) & 0x07070707u;
 
     uint hits = 0u;
     for (int i = 0; i < 4; i++) {
@@ -134,8 +140,9 @@ void visitNode(inout Traversal r) {
                      uintBitsToFloat(((w0.w >> 16u) & 255u) << 23u));
     vec3 scale = unit * r.inverse;
     vec3 offset = (uintBitsToFloat(w0.xyz) - r.origin) * r.inverse;
-    uint hits = intersectFourChildren(r, scale, offset, w1.z, w2.x, w2.z, w3.x, w3.z, w4.x, w4.z) |
-                intersectFourChildren(r, scale, offset, w1.w, w2.y, w2.w, w3.y, w3.w, w4.y, w4.w);
+    FourChildren low = FourChildren(w1.z, uvec3(w2.x, w2.z, w3.x), uvec3(w3.z, w4.x, w4.z));
+    FourChildren high = FourChildren(w1.w, uvec3(w2.y, w2.w, w3.y), uvec3(w3.w, w4.y, w4.w));
+    uint hits = intersectFourChildren(r, scale, offset, low) | intersectFourChildren(r, scale, offset, high);
     r.groupBase = w1.x;
     r.groupMask = (hits & 0xff000000u) | (w0.w >> 24u);
     r.pairBase = w1.y;

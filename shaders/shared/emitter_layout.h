@@ -11,15 +11,14 @@ DUOLUX_BEGIN
 DUOLUX_CONST uint kEmitterTexels = 6u;      // of 4 x uint32
 DUOLUX_CONST uint kEmitterAliasTexel = 5u;  // the texel that holds the entry of the alias table
 
-// DeviceEmitter.flags
+// Kinds of emitters. The record of an emitter has its kind in DeviceEmitter.flags.
+DUOLUX_CONST uint kEmitterKindTriangle = 8u;
+DUOLUX_CONST uint kEmitterKindPoint = 16u;
+
+// The other flags.
 DUOLUX_CONST uint kEmitterFront = 1u;       // emits on the front side
 DUOLUX_CONST uint kEmitterBack = 2u;        // emits on the back side
 DUOLUX_CONST uint kEmitterCoincident = 4u;  // other surfaces coincide with the triangle, kSpecPlanes only
-DUOLUX_CONST uint kEmitterPoint = 8u;       // not a triangle, but a point
-
-// Kinds of emitters.
-DUOLUX_CONST uint kEmitterKindTriangle = 1u;
-DUOLUX_CONST uint kEmitterKindPoint = 2u;
 
 #ifdef __cplusplus
 struct DeviceEmitter {

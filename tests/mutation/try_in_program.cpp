@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <set>
 
 #include "host/base/error.h"
@@ -16,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 
 /// Fast tests first.
 constexpr const char* kTests[] = {"film_test", "render_test", "statistical_test"};
@@ -90,30 +88,16 @@ class Copy {
     fs::path build_ = sources_ / "build" / "release";
 };
 
-/// Time limit for the filtered tests of each program: many times their duration without mutations.
-using Limits = std::map<std::string, seconds>;
+/// For the filtered tests of a program. A mutation may make a loop endless.
+constexpr seconds kFirstTestsLimit(600), kAllTestsLimit(3600);
 
-Limits limitsWithoutMutation(const Copy& copy, const std::string& filter) {
-    Limits limits;
-    for (const char* test : kTests) {
-        const auto start = steady_clock::now();
-        Mutation none;
-        noteResult(copy.run(test, filter, seconds(7200)), none);
-        if (none.decided())
-            throw MachineError(fmt::format("without any mutation {} fails already",
-                                           none.caughtBy.empty() ? test : none.caughtBy));
-        limits[test] = seconds(30) + 5 * std::chrono::duration_cast<seconds>(steady_clock::now() - start);
-    }
-    return limits;
-}
-
-void tryOne(const Copy& copy, const MutationList& list, const std::string& filter, const Limits& limits,
+void tryOne(const Copy& copy, const MutationList& list, const std::string& filter, seconds limit,
             Mutation& m) {
     copy.write(m, mutated(list, m));
     try {
         copy.build();
         for (const char* test : kTests) {
-            if (!m.decided()) noteResult(copy.run(test, filter, limits.at(test)), m);
+            if (!m.decided()) noteResult(copy.run(test, filter, limit), m);
         }
     } catch (const MachineError&) {
         m.compiles = false;
@@ -126,22 +110,14 @@ void tryOne(const Copy& copy, const MutationList& list, const std::string& filte
 void tryInProgram(MutationList& list) {
     const Copy copy(list.root);
     // First the tests that detect most mutations of a file, then all tests for the remaining mutations.
-    std::map<std::string, Limits> limits;
     for (Mutation& m : list.mutations) {
-        Limits& here = limits[list.firstTests(m)];
-        if (here.empty()) {
-            copy.build();  // without the mutation before
-            here = limitsWithoutMutation(copy, list.firstTests(m));
-        }
-        tryOne(copy, list, list.firstTests(m), here, m);
+        tryOne(copy, list, list.firstTests(m), kFirstTestsLimit, m);
         if (m.decided()) printVerdict(list, m);
     }
     if (std::ranges::all_of(list.mutations, &Mutation::decided)) return;
-    copy.build();
-    const Limits all = limitsWithoutMutation(copy, "*");
     for (Mutation& m : list.mutations) {
         if (m.decided()) continue;
-        tryOne(copy, list, "*", all, m);
+        tryOne(copy, list, "*", kAllTestsLimit, m);
         printVerdict(list, m);
     }
 }

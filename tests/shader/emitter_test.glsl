@@ -113,7 +113,7 @@ TEST(CameraSeesTheSideThatFacesIt) {
 }
 
 Emitter pointEmitter() {
-    return Emitter(randomVec3(-1.0, 1.0), vec3(0.0), vec3(0.0), kEmitterPoint, 0.0, 0u,
+    return Emitter(randomVec3(-1.0, 1.0), vec3(0.0), vec3(0.0), kEmitterKindPoint, 0.0, 0u,
                    Radiance2(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 0.25);
 }
 
@@ -152,7 +152,21 @@ void store(uint index, Emitter emitter) {
     emitterTexels[texel + 2u] = uvec4(floatBitsToUint(emitter.v2), emitter.triangle);
     emitterTexels[texel + 3u] = uvec4(floatBitsToUint(emitter.emission.invisible), floatBitsToUint(emitter.density));
     emitterTexels[texel + 4u] = uvec4(floatBitsToUint(emitter.emission.visible), emitter.flags);
-    emitterTexels[texel + 5u] = uvec4(floatBitsToUint(1.0), index, 0u, 0u);
+    emitterTexels[texel + kEmitterAliasTexel] = uvec4(floatBitsToUint(1.0), index, 0u, 0u);
+}
+
+// Triangles with ranks beyond the emitting ones emit nothing, whichever record is read for them.
+TEST(OnlyEmittingTrianglesHaveAnEmitter) {
+    for (uint rank = 0u; rank < 2u; rank++) {
+        Emitter triangle = triangleEmitter(kEmitterFront | kEmitterBack);
+        triangle.emission.visible = vec3(float(rank) + 1.0);
+        store(rank, triangle);
+    }
+    for (uint rank = 0u; rank < 4u; rank++) {
+        Emitter emitter = emitterOfTriangle(rank, 2u);
+        EXPECT_EQ(emissionOn(emitter, true).visible, vec3(rank < 2u ? float(rank) + 1.0 : 0.0));
+        EXPECT_EQ(emissionOn(emitter, false).visible, vec3(rank < 2u ? float(rank) + 1.0 : 0.0));
+    }
 }
 
 // A triangle and a point: the chosen emitter is sampled by its kind, and the closed form adds up both.

@@ -33,6 +33,22 @@ TEST_P(Bounces, LastAndPreviousAreWhatTheyAdd) {
     EXPECT_NEAR(statistics[3].previousBounceRadiance, previous, 1e-3 * previous);
 }
 
+/// All light of `local`, which is computed in closed form here, is scattered once.
+TEST(BouncesInClosedForm, DirectLightIsTheFirst) {
+    LoadedScene scene = cornellBox();
+    scene.reflectance = preset("local");
+    scene.settings.width = scene.settings.height = 16;
+    scene.settings.spp = 4;
+    for (const std::uint32_t bounces : {1u, 2u}) {
+        scene.settings.bounces = bounces;
+        const RenderStatistics statistics = render(device(), scene).statistics;
+        ASSERT_TRUE(statistics.directLightInClosedForm);
+        ASSERT_GT(statistics.meanRadiance, 0.0);
+        EXPECT_NEAR(bounces == 1 ? statistics.lastBounceRadiance : statistics.previousBounceRadiance,
+                    statistics.meanRadiance, 1e-5 * statistics.meanRadiance);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Bounces, testing::Values(Integrator::kPathTracer, Integrator::kLightTracer),
                          [](const auto& test) {
                              return test.param == Integrator::kPathTracer ? "Path" : "Light";

@@ -83,7 +83,7 @@ TEST(EmitterTable, PointsFollowAndAreChosenByPower) {
     ASSERT_EQ(table.records.size(), 3u);
     EXPECT_EQ(table.choices, 3u);
     EXPECT_EQ(table.records[2].v0, glm::vec3(1, 2, 3));
-    EXPECT_EQ(table.records[2].flags, shared::kEmitterPoint);
+    EXPECT_EQ(table.records[2].flags, shared::kEmitterKindPoint);
     EXPECT_EQ(table.records[2].visible, glm::vec3(0.25f));
     // Powers over pi: 4.5 and 12 as above, and 4 times 1.5.
     EXPECT_FLOAT_EQ(table.records[2].density, 6.0f / 22.5f);

@@ -28,7 +28,8 @@ Emitter fetchEmitter(uint index) {
     uvec4 t3 = fetchEmitterTexel(texel + 3u);
     uvec4 t4 = fetchEmitterTexel(texel + 4u);
     return Emitter(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.xyz), uintBitsToFloat(t2.xyz), t4.w,
-                   uintBitsToFloat(t1.w), t2.w, Radiance2(uintBitsToFloat(t3.xyz), uintBitsToFloat(t4.xyz)), uintBitsToFloat(t3.w));
+                   uintBitsToFloat(t1.w), t2.w, Radiance2(uintBitsToFloat(t3.xyz), uintBitsToFloat(t4.xyz)),
+                   uintBitsToFloat(t3.w));
 }
 
 // The entry of the alias table at an index.
@@ -51,27 +52,35 @@ struct EmitterPoint {
 
 // The direction in which a point of the scene receives light from an emitter.
 struct EmitterSample {
-    vec3 wi;          // unit, from the point to the emitter
-    float distance;   // to just in front of the emitter, or to the emitter itself if surfaces coincide with it
-    Radiance2 emission;   // radiance that leaves the emitter towards the point
-    float pdf;        // per steradian; if `delta`, the probability of choosing the emitter
-    bool delta;       // wi is the only direction, and emission is irradiance that faces it
-    uint emitter;     // index
-    uint coincident;  // the emitter's triangle in device memory if other surfaces coincide with it, else kNoTriangle
+    vec3 wi;             // unit, from the point to the emitter
+    float distance;      // to just in front of the emitter, or to the emitter itself if surfaces coincide with it
+    Radiance2 emission;  // radiance that leaves the emitter towards the point
+    float pdf;           // per steradian; if `delta`, the probability of choosing the emitter
+    bool delta;          // wi is the only direction, and emission is irradiance that faces it
+    uint emitter;        // index
+    uint coincident;     // the emitter's triangle in device memory if other surfaces coincide with it, else kNoTriangle
 };
 
 // A light path that leaves an emitter.
 struct EmittedRay {
     SurfacePoint point;  // its normals are on the side on which the light path leaves
     vec3 direction;      // unit
-    Radiance2 flux;          // W: emission divided by the density of the ray
+    Radiance2 flux;      // W: emission divided by the density of the ray
 };
 
 // What the camera sees of a point on an emitter.
 struct EmitterSeen {
     SurfacePoint point;  // its normals are on the side that faces the camera
-    Radiance2 intensity;     // emission divided by the density of the point, W sr^-1
+    Radiance2 intensity; // emission divided by the density of the point, W sr^-1
 };
+
+// The emitter of the triangle with this rank. A triangle that does not emit has a record without sides.
+Emitter emitterOfTriangle(uint rank, uint emittingTriangles) {
+    bool emits = rank < emittingTriangles;
+    Emitter emitter = fetchEmitter(emits ? rank : 0u);
+    emitter.flags = emits ? emitter.flags : 0u;
+    return emitter;
+}
 
 // The radiance that an emitter sends to one side.
 Radiance2 emissionOn(Emitter emitter, bool front) {

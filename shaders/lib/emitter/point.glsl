@@ -5,8 +5,6 @@
 
 #include "shaders/lib/emitter/emitter_types.glsl"
 
-bool isPointEmitter(Emitter emitter) { return (emitter.flags & kEmitterPoint) != 0u; }
-
 // The only direction from the point of the scene; emission is intensity over the square of the distance.
 EmitterSample samplePointEmitter(Emitter emitter, uint index, vec3 point) {
     vec3 offset = emitter.v0 - point;
@@ -29,12 +27,19 @@ Radiance2 irradianceFromPoint(Emitter emitter, vec3 point, vec3 normal) {
     return scaled(emitter.emission, vec3(distanceSquared > 0.0 ? cosine / distanceSquared : 0.0));
 }
 
+EmitterPoint pointOnPointEmitter(Emitter emitter) { return EmitterPoint(emitter.v0, vec3(0.0, 0.0, 1.0), 0.0); }
+
 EmittedRay emitFromPoint(Emitter emitter, vec2 u) {
     EmittedRay ray;
     ray.direction = uniformSphere(u);
     ray.point = SurfacePoint(emitter.v0, ray.direction, ray.direction, 0u, 0u, 0.0);
     ray.flux = scaled(emitter.emission, vec3(4.0 * kPi / emitter.density));
     return ray;
+}
+
+// The camera cannot see a point.
+EmitterSeen seePointEmitter(Emitter emitter, vec3 toCamera) {
+    return EmitterSeen(SurfacePoint(emitter.v0, toCamera, toCamera, 0u, 0u, 0.0), Radiance2(vec3(0.0), vec3(0.0)));
 }
 
 #endif
