@@ -23,19 +23,19 @@ struct MergeOptions {
     float exposure = 0.0f;
 };
 
-/// The range of samples in a part.
 struct Part {
-    std::uint32_t first, end;
+    SampleRange samples;
     std::string file;
 };
 
 /// Throws InputError if two parts share samples, which would count twice.
 void requireDisjoint(const Part& part, const std::vector<Part>& others) {
     for (const Part& other : others) {
-        const std::uint32_t first = std::max(part.first, other.first), end = std::min(part.end, other.end);
-        if (first >= end) continue;
+        const std::uint32_t begin = std::max(part.samples.begin, other.samples.begin);
+        const std::uint32_t end = std::min(part.samples.end, other.samples.end);
+        if (begin >= end) continue;
         throw InputError(part.file, "",
-                         fmt::format("has samples {} to {}, which {} also has", first, end - 1, other.file),
+                         fmt::format("has samples {} to {}, which {} also has", begin, end - 1, other.file),
                          "expected parts of different --sample-range");
     }
 }
@@ -43,8 +43,7 @@ void requireDisjoint(const Part& part, const std::vector<Part>& others) {
 void warnIfIncomplete(const std::string& file, const Checkpoint& part) {
     const Film& film = part.state.film;
     const std::uint64_t taken = film.totalSamples() + film.lightPaths();
-    const std::uint64_t wanted =
-        (part.origin.settings.spp - part.origin.firstSample) * (std::uint64_t{film.width()} * film.height());
+    const std::uint64_t wanted = part.origin.samples.size() * (std::uint64_t{film.width()} * film.height());
     if (taken == wanted) return;
     warn(
         fmt::format("{} has {} of {} {}; --resume traces the remaining ones", file, taken, wanted,
@@ -61,9 +60,9 @@ void runMerge(const MergeOptions& options) {
     for (const std::string& file : options.parts) {
         Checkpoint part = readCheckpoint(file);
         if (sum) requireSameOrigin(file, part.origin, sum->origin, options.parts.front());
-        requireDisjoint({part.origin.firstSample, part.origin.settings.spp, file}, parts);
+        requireDisjoint({part.origin.samples, file}, parts);
         warnIfIncomplete(file, part);
-        parts.push_back({part.origin.firstSample, part.origin.settings.spp, file});
+        parts.push_back({part.origin.samples, file});
         if (sum) {
             sum->state.film.add(part.state.film);
             sum->state.filmOverflowed = sum->state.filmOverflowed || part.state.filmOverflowed;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/film/layers.h"
+#include "host/film/sample_range.h"
 
 namespace duolux {
 
@@ -23,10 +24,7 @@ glm::uvec2 parseSize(const std::string& text);
 /// "NAME,...", names of layers of a film.
 FilmLayerSet parseLayers(const std::string& text);
 
-/// "A:B", samples [first, end) with first < end.
-struct SampleRange {
-    std::uint32_t first, end;
-};
+/// "A:B", the samples [A, B) with A < B.
 SampleRange parseSampleRange(const std::string& text);
 
 /// Checks that an option's text is a number in [lower, upper]; rejects NaN.

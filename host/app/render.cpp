@@ -103,12 +103,12 @@ const char* samplesName(const RenderSettings& settings) {
     return settings.integrator == Integrator::kLightTracer ? "light paths" : "samples";
 }
 
-std::uint64_t samplesInAll(const RenderSettings& settings, const RenderControl& control) {
-    return std::uint64_t{settings.width} * settings.height * (settings.spp - control.firstSample);
+std::uint64_t samplesInAll(const RenderSettings& settings, SampleRange samples) {
+    return std::uint64_t{settings.width} * settings.height * samples.size();
 }
 
 /// Warnings about a finished render.
-std::vector<std::string> resultWarnings(const RenderSettings& settings, const RenderControl& control,
+std::vector<std::string> resultWarnings(const RenderSettings& settings, SampleRange samples,
                                         const RenderOutput& output, bool failed) {
     const RenderStatistics& statistics = output.statistics;
     std::vector<std::string> warnings;
@@ -120,8 +120,8 @@ std::vector<std::string> resultWarnings(const RenderSettings& settings, const Re
     if (statistics.stopped && !failed && !stopStatus()) {
         const auto taken = static_cast<double>(output.film.totalSamples() + output.film.lightPaths());
         warnings.push_back(fmt::format("stopped at the time limit after {:.4g} of {} {} per pixel",
-                                       taken / static_cast<double>(pixels),
-                                       settings.spp - control.firstSample, samplesName(settings)));
+                                       taken / static_cast<double>(pixels), samples.size(),
+                                       samplesName(settings)));
     }
     if (statistics.cutOffByBounces()) {
         warnings.push_back(fmt::format(
@@ -165,48 +165,48 @@ void requireUseOfLayers(const RenderOptions& options, const std::vector<std::str
 }
 
 /// Chooses the samples to trace: those of --sample-range, or of the checkpoint, or all.
-void chooseRange(const RenderOptions& options, const Overrides& overrides,
-                 const std::optional<Checkpoint>& resumed, RenderSettings& settings, RenderControl& control) {
+SampleRange chooseSamples(const RenderOptions& options, const Overrides& overrides,
+                          const std::optional<Checkpoint>& resumed, std::uint32_t spp) {
+    SampleRange samples{0, spp};
     if (overrides.range) {
-        const auto [first, end] = *overrides.range;
-        if (end > settings.spp) {
+        samples = *overrides.range;
+        if (samples.end > spp) {
             throw UsageError(
                 fmt::format("--sample-range {}: there are {} samples per pixel; expected A:B with "
                             "0 <= A < B <= {}, or more --spp",
-                            options.sampleRange, settings.spp, settings.spp));
+                            options.sampleRange, spp, spp));
         }
-        control.firstSample = first;
-        settings.spp = end;
     } else if (resumed) {
-        control.firstSample = resumed->origin.firstSample;
-        if (!options.spp) settings.spp = resumed->origin.settings.spp;
-        if (settings.spp <= control.firstSample) {
+        samples = resumed->origin.samples;
+        if (options.spp) samples.end = *options.spp;
+        if (samples.end <= samples.begin) {
             throw UsageError(fmt::format("--spp {}: {} is a part that starts at sample {}; expected more",
-                                         settings.spp, options.resume, control.firstSample));
+                                         samples.end, options.resume, samples.begin));
         }
     }
     // Samples that have been traced are kept.
     if (resumed) {
-        const std::uint32_t there = resumed->origin.firstSample + samplesTaken(resumed->state.film);
-        if (there > settings.spp) {
+        const std::uint32_t there = resumed->origin.samples.begin + samplesTaken(resumed->state.film);
+        if (there > samples.end) {
             warn(fmt::format("{} holds samples up to {} of every pixel; they are kept", options.resume,
                              there));
-            settings.spp = there;
+            samples.end = there;
         }
     }
+    return samples;
 }
 
 void prepareResume(const RenderOptions& options, const Checkpoint& resumed, const LoadedScene& scene,
-                   RenderControl& control) {
-    if (resumed.origin.firstSample != control.firstSample) {
+                   SampleRange samples, RenderControl& control) {
+    if (resumed.origin.samples.begin != samples.begin) {
         throw InputError(
             options.resume, "first sample",
-            fmt::format("is {}, but {} of this render", resumed.origin.firstSample, control.firstSample),
+            fmt::format("is {}, but {} of this render", resumed.origin.samples.begin, samples.begin),
             "expected a --sample-range with the same first sample");
     }
     // By default, direct light is computed as in the checkpoint.
     FilmOrigin wanted =
-        originOf(scene, scene.settings, control.firstSample, control.directLight == DirectLight::kClosedForm);
+        originOf(scene, scene.settings, samples, control.directLight == DirectLight::kClosedForm);
     if (control.directLight == DirectLight::kAuto) {
         wanted.directLight = control.directLight = resumed.origin.directLight;
     }
@@ -282,8 +282,9 @@ void runRender(const RenderOptions& options) {
     control.directLight = chooseDirectLight(options, scene.settings);
     std::optional<Checkpoint> resumed;
     if (!options.resume.empty()) resumed = readCheckpoint(options.resume);
-    chooseRange(options, overrides, resumed, scene.settings, control);
-    if (resumed) prepareResume(options, *resumed, scene, control);
+    const SampleRange samples = chooseSamples(options, overrides, resumed, scene.settings.spp);
+    control.samples = samples;
+    if (resumed) prepareResume(options, *resumed, scene, samples, control);
     seconds.load = secondsSince(start);
 
     Device device = openDevice(options.device);
@@ -293,7 +294,7 @@ void runRender(const RenderOptions& options) {
     constexpr std::uint64_t kManyPixels = 1u << 24;
     const std::uint64_t pixels = std::uint64_t{scene.settings.width} * scene.settings.height;
     if (!resumed && (style == Progress::Style::kBar || pixels >= kManyPixels)) {
-        progress.begin(static_cast<double>(samplesInAll(scene.settings, control)));
+        progress.begin(static_cast<double>(samplesInAll(scene.settings, samples)));
     }
     control.onStart = deferSignals;
     control.onProgress = [&](const RenderProgress& p) {
@@ -303,7 +304,7 @@ void runRender(const RenderOptions& options) {
         return !stopStatus();
     };
     const auto origin = [&](const RenderStatistics& statistics) {
-        return originOf(scene, scene.settings, control.firstSample, statistics.directLightInClosedForm);
+        return originOf(scene, scene.settings, samples, statistics.directLightInClosedForm);
     };
     if (!options.checkpoint.empty()) {
         control.onCheckpoint = [&](const Film& film, const RenderStatistics& statistics) {
@@ -320,7 +321,7 @@ void runRender(const RenderOptions& options) {
     deferSignals();  // even if all samples were resumed
     progress.finish();
 
-    std::vector<std::string> warnings = resultWarnings(scene.settings, control, output, failure.has_value());
+    std::vector<std::string> warnings = resultWarnings(scene.settings, samples, output, failure.has_value());
     // The warning requires at least one sample of every pixel.
     if (!failure && output.film.totalSamples() + output.film.lightPaths() >= output.film.samples().size()) {
         const bool clips = std::any_of(outputs.begin(), outputs.end(), isPngPath);
@@ -345,13 +346,12 @@ void runRender(const RenderOptions& options) {
     seconds.total = secondsSince(start);
     if (!options.report.empty()) {
         write(options.report, [&](const std::filesystem::path& path) {
-            writeReport(path,
-                        renderReport(scene, control.firstSample, device.info(), output.statistics, seconds));
+            writeReport(path, renderReport(scene, samples, device.info(), output.statistics, seconds));
         });
     }
     const std::string there =
         fmt::format("{} of {} {}", output.film.totalSamples() + output.film.lightPaths(),
-                    samplesInAll(scene.settings, control), samplesName(scene.settings));
+                    samplesInAll(scene.settings, samples), samplesName(scene.settings));
     if (failure) {
         write.sayFailures();
         throw MachineError(fmt::format("{}; {} {}", failure->what(),

@@ -24,7 +24,7 @@ double perSecond(std::uint64_t count, double seconds) {
 
 }  // namespace
 
-std::string renderReport(const LoadedScene& scene, std::uint32_t firstSample, const DeviceInfo& device,
+std::string renderReport(const LoadedScene& scene, SampleRange samples, const DeviceInfo& device,
                          const RenderStatistics& statistics, const StageSeconds& seconds) {
     const std::uint64_t rays = statistics.cameraRays + statistics.lightRays + statistics.bounceRays +
                                statistics.shadowRays + statistics.emitterRays;
@@ -41,8 +41,8 @@ std::string renderReport(const LoadedScene& scene, std::uint32_t firstSample, co
                        {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}}};
     report["settings"] = {{"width", scene.settings.width},
                           {"height", scene.settings.height},
-                          {"spp", scene.settings.spp - firstSample},
-                          {"sample_range", {firstSample, scene.settings.spp}},
+                          {"spp", samples.size()},
+                          {"sample_range", {samples.begin, samples.end}},
                           {"bounces", scene.settings.bounces},
                           {"effective_bounces", statistics.effectiveBounces},
                           {"seed", scene.settings.seed},

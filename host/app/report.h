@@ -13,8 +13,8 @@ struct StageSeconds {
     double load = 0.0, write = 0.0, total = 0.0;
 };
 
-/// The statistics of a render as JSON (format version 1), with a newline at the end.
-std::string renderReport(const LoadedScene& scene, std::uint32_t firstSample, const DeviceInfo& device,
+/// The statistics of a render of these samples as JSON (format version 1), with a newline at the end.
+std::string renderReport(const LoadedScene& scene, SampleRange samples, const DeviceInfo& device,
                          const RenderStatistics& statistics, const StageSeconds& seconds);
 
 }  // namespace duolux

@@ -1,11 +1,14 @@
 #include "host/film/film.h"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "shaders/shared/path_tracer_layout.h"
 
@@ -20,22 +23,20 @@ Film::Film(std::uint32_t width, std::uint32_t height, float quantum, FilmLayerSe
       layers_(layers),
       layerSums_(sums_.size() * channelsOf(layers)) {}
 
-Film::Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples,
-           Sums lightPathSums, std::uint64_t lightPaths, Carries carries, FilmLayerSet layers,
-           LayerSums layerSums)
-    : width_(width),
-      height_(height),
-      quantum_(quantum),
-      sums_(std::move(sums)),
-      samples_(std::move(samples)),
-      lightPathSums_(std::move(lightPathSums)),
-      lightPaths_(lightPaths),
-      carries_(std::move(carries)),
-      layers_(layers),
-      layerSums_(std::move(layerSums)) {
-    assert(sums_.size() == std::size_t{width} * height && samples_.size() == sums_.size());
+Film::Film(Contents contents)
+    : width_(contents.width),
+      height_(contents.height),
+      quantum_(contents.quantum),
+      sums_(std::move(contents.sums)),
+      samples_(std::move(contents.samples)),
+      lightPathSums_(std::move(contents.lightPathSums)),
+      lightPaths_(contents.lightPaths),
+      carries_(std::move(contents.carries)),
+      layers_(contents.layers),
+      layerSums_(std::move(contents.layerSums)) {
+    assert(sums_.size() == std::size_t{width_} * height_ && samples_.size() == sums_.size());
     assert(lightPathSums_.empty() || lightPathSums_.size() == sums_.size());
-    assert(layerSums_.size() == sums_.size() * channelsOf(layers));
+    assert(layerSums_.size() == sums_.size() * channelsOf(layers_));
 }
 
 void Film::setQuantum(float quantum) {
@@ -234,7 +235,9 @@ RadianceImage Film::resolve() const {
 }
 
 std::vector<float> Film::resolve(FilmLayerSet layer) const {
-    assert(std::has_single_bit(layer) && (layers_ & layer) != 0);
+    if (!std::has_single_bit(layer) || (layers_ & layer) == 0) {
+        throw UsageError(fmt::format("'{}' is not one of the film's layers", fmt::join(namesOf(layer), ",")));
+    }
     std::vector<float> values(sums_.size() * channelsOf(layer));
     readLayer(*layersOf(layer).front(), 0, values);
     return values;

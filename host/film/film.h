@@ -29,14 +29,24 @@ class Film {
     /// (+ 3 for the visible component). The sums of light paths follow all others.
     using Carries = std::map<std::uint64_t, std::int64_t>;
 
-    /// `quantum`: the radiance of one unit, a power of two > 0.
+    /// What a film consists of, as its accessors return it.
+    struct Contents {
+        std::uint32_t width = 0, height = 0;
+        float quantum = 1.0f;
+        Sums sums;                ///< of each pixel
+        Samples samples;          ///< of each pixel
+        Sums lightPathSums = {};  ///< of each pixel, or empty
+        std::uint64_t lightPaths = 0;
+        Carries carries = {};
+        FilmLayerSet layers = 0;
+        LayerSums layerSums = {};
+    };
+
+    /// A black film. `quantum`: the radiance of one unit, in W sr^-1 m^-2 (scene units), a power of two > 0.
     Film(std::uint32_t width, std::uint32_t height, float quantum, FilmLayerSet layers = 0);
 
-    /// Creates a film from the values of another film's accessors; `lightPathSums` may be empty. The sizes
-    /// must match.
-    Film(std::uint32_t width, std::uint32_t height, float quantum, Sums sums, Samples samples,
-         Sums lightPathSums, std::uint64_t lightPaths, Carries carries, FilmLayerSet layers = 0,
-         LayerSums layerSums = {});
+    /// A film with these contents, whose sizes must fit the width, the height and the layers.
+    explicit Film(Contents contents);
 
     /// Must be called before anything is added.
     void setQuantum(float quantum);
@@ -50,7 +60,7 @@ class Film {
     float quantum() const { return quantum_; }
 
     /// Adds sums of `samples` samples each to the pixels listed (indices row-major from the top left).
-    /// `layerSums`: as layerSums(), of these pixels.
+    /// `sums`: one for each; `layerSums`: as layerSums(), of these pixels.
     void add(std::span<const std::uint32_t> pixels, std::span<const PixelSum> sums, std::uint32_t samples,
              std::span<const std::int64_t> layerSums = {});
 
@@ -63,31 +73,36 @@ class Film {
     /// Counts light paths whose contributions have been added, including those without any.
     void countLightPaths(std::uint64_t paths) { lightPaths_ += paths; }
 
-    /// The largest mean radiance of a pixel; resolve() clamps larger values. It does not depend on the
-    /// integrator or on the number of samples.
+    /// The largest mean radiance of a pixel, in W sr^-1 m^-2; resolve() clamps larger values. It does not
+    /// depend on the integrator or on the number of samples.
     double largestRadiance() const;
     /// Whether some pixel exceeds, or may have exceeded, largestRadiance().
     bool overflowed() const;
+    /// The number of samples of all pixels together; light paths are not among them.
     std::uint64_t totalSamples() const;
+    /// The number of samples of a pixel (row-major index).
     std::uint32_t samplesOf(std::uint32_t pixel) const { return samples_[pixel]; }
+    /// One number or sum for each pixel, row-major from the top left. Those of light paths are kept
+    /// separately and are empty without light paths.
     std::span<const std::uint32_t> samples() const { return samples_; }
     std::span<const PixelSum> sums() const { return sums_; }
+    std::span<const PixelSum> lightPathSums() const { return lightPathSums_; }
     std::uint64_t lightPaths() const { return lightPaths_; }
-    std::span<const PixelSum> lightPathSums() const { return lightPathSums_; }  ///< empty without light paths
     const Carries& carries() const { return carries_; }
     FilmLayerSet layers() const { return layers_; }
     /// Sums over the samples of each pixel in the quanta of the layers: all channels of one layer after the
     /// other, channelsOf(layers()) numbers per pixel.
     std::span<const std::int64_t> layerSums() const { return layerSums_; }
 
-    /// Mean radiance per pixel, from samples and from light paths; black where there are neither.
-    /// The film must outlive the rows.
+    /// Mean radiance per pixel in W sr^-1 m^-2, from samples and from light paths; black where there are
+    /// neither. The film must outlive the rows.
     ImageRows rows() const;
 
     /// rows() as an image.
     RadianceImage resolve() const;
 
-    /// The means of one of the layers, all channels of one pixel after the other; 0 without samples.
+    /// The means of one of the layers: for each pixel, row-major, all channels of the layer one after the
+    /// other; 0 without samples. Throws UsageError unless `layer` is exactly one of layers().
     std::vector<float> resolve(FilmLayerSet layer) const;
 
   private:

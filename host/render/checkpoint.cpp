@@ -7,6 +7,9 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -53,23 +56,75 @@ const char* nameOf(DirectLight directLight) {
     return directLight == DirectLight::kClosedForm ? "closed-form" : "sampled";
 }
 
+/// A field of an origin: its place in the header, and its name in messages, or null if it may differ between
+/// films that are added.
+struct Field {
+    const char *part, *key, *name;
+};
+
+/// Calls visit(field, value) for every field of an origin: what writes, reads or compares origins goes by
+/// this list. A field that is missing here does not compile.
+template <typename Origin, typename Visit>
+void forEachField(Origin& origin, Visit&& visit) {
+    auto& [sceneFile, sceneHash, reflectance, settings, directLight, display, samples] = origin;
+    auto& [width, height, spp, bounces, seed, sampler, integrator, layers] = settings;
+    auto& [begin, end] = samples;
+    static_cast<void>(spp);     // `samples` takes its place
+    static_cast<void>(layers);  // the film has them
+    visit(Field{"scene", "file", nullptr}, sceneFile);
+    visit(Field{"scene", "hash", "scene hash"}, sceneHash);
+    visit(Field{"scene", "reflectance", "reflectance"}, reflectance);
+    visit(Field{"scene", "display", nullptr}, display);  // the hash covers it
+    visit(Field{"settings", "width", "width"}, width);
+    visit(Field{"settings", "height", "height"}, height);
+    visit(Field{"settings", "bounces", "bounces"}, bounces);
+    visit(Field{"settings", "seed", "seed"}, seed);
+    visit(Field{"settings", "sampler", "sampler"}, sampler);
+    visit(Field{"settings", "integrator", "integrator"}, integrator);
+    visit(Field{"settings", "direct_light", "direct light"}, directLight);
+    visit(Field{"settings", "first_sample", nullptr}, begin);
+    visit(Field{"settings", "end_sample", nullptr}, end);
+}
+
+template <typename T>
+nlohmann::ordered_json toJson(const T& value) {
+    if constexpr (std::is_enum_v<T>) {
+        return nameOf(value);
+    } else if constexpr (std::is_same_v<T, glm::vec2>) {
+        return {value.x, value.y};
+    } else {
+        return value;
+    }
+}
+
+template <typename T>
+void fromJson(const nlohmann::json& json, T& value) {
+    static_assert(!std::is_enum_v<T>, "an enumeration has an overload of its own");
+    json.get_to(value);
+}
+
+void fromJson(const nlohmann::json& json, glm::vec2& value) {
+    value = {json.at(0).get<float>(), json.at(1).get<float>()};
+}
+
+void fromJson(const nlohmann::json& json, Sampler& value) {
+    value = json == nameOf(Sampler::kIndependent) ? Sampler::kIndependent : Sampler::kSobol;
+}
+
+void fromJson(const nlohmann::json& json, Integrator& value) {
+    value = json == nameOf(Integrator::kLightTracer) ? Integrator::kLightTracer : Integrator::kPathTracer;
+}
+
+void fromJson(const nlohmann::json& json, DirectLight& value) {
+    value = json == nameOf(DirectLight::kClosedForm) ? DirectLight::kClosedForm : DirectLight::kSampled;
+}
+
 std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderStatistics& statistics) {
-    const RenderSettings& settings = origin.settings;
     nlohmann::ordered_json header;
     header["program"] = fmt::format("duolux {} ({})", versionString(), commitString());
-    header["scene"] = {{"file", origin.sceneFile},
-                       {"hash", origin.sceneHash},
-                       {"reflectance", origin.reflectance},
-                       {"display", {origin.display.x, origin.display.y}}};
-    header["settings"] = {{"width", settings.width},
-                          {"height", settings.height},
-                          {"bounces", settings.bounces},
-                          {"seed", settings.seed},
-                          {"sampler", nameOf(settings.sampler)},
-                          {"integrator", nameOf(settings.integrator)},
-                          {"direct_light", nameOf(origin.directLight)},
-                          {"first_sample", origin.firstSample},
-                          {"end_sample", settings.spp}};
+    forEachField(origin, [&](const Field& field, const auto& value) {
+        header[field.part][field.key] = toJson(value);
+    });
     header["film"] = {{"quantum", film.quantum()},
                       {"light_paths", film.lightPaths()},
                       {"light_sums", !film.lightPathSums().empty()},
@@ -82,29 +137,29 @@ std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderSta
     return header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// Without the layers.
 FilmOrigin originFrom(const nlohmann::json& header) {
-    const nlohmann::json& scene = header.at("scene");
-    const nlohmann::json& settings = header.at("settings");
     FilmOrigin origin;
-    origin.sceneFile = scene.at("file").get<std::string>();
-    origin.sceneHash = scene.at("hash").get<std::string>();
-    origin.reflectance = scene.at("reflectance").get<std::string>();
-    origin.display = {scene.at("display").at(0).get<float>(), scene.at("display").at(1).get<float>()};
-    settings.at("width").get_to(origin.settings.width);
-    settings.at("height").get_to(origin.settings.height);
-    settings.at("bounces").get_to(origin.settings.bounces);
-    settings.at("seed").get_to(origin.settings.seed);
-    settings.at("end_sample").get_to(origin.settings.spp);
-    settings.at("first_sample").get_to(origin.firstSample);
-    origin.settings.sampler =
-        settings.at("sampler") == nameOf(Sampler::kIndependent) ? Sampler::kIndependent : Sampler::kSobol;
-    origin.settings.integrator = settings.at("integrator") == nameOf(Integrator::kLightTracer)
-                                     ? Integrator::kLightTracer
-                                     : Integrator::kPathTracer;
-    origin.directLight = settings.at("direct_light") == nameOf(DirectLight::kClosedForm)
-                             ? DirectLight::kClosedForm
-                             : DirectLight::kSampled;
+    forEachField(origin, [&](const Field& field, auto& value) {
+        fromJson(header.at(field.part).at(field.key), value);
+    });
+    origin.settings.spp = origin.samples.size();
     return origin;
+}
+
+/// The fields in which the origins of films that are added must not differ, by their names and as text; what
+/// tells most comes first.
+std::vector<std::pair<std::string, std::string>> identityOf(const FilmOrigin& origin) {
+    const RenderSettings& settings = origin.settings;
+    std::vector<std::pair<std::string, std::string>> identity{
+        {"size", fmt::format("{}x{}", settings.width, settings.height)}, {"reflectance", origin.reflectance}};
+    forEachField(origin, [&](const Field& field, const auto& value) {
+        if (field.name == nullptr) return;
+        const nlohmann::ordered_json json = toJson(value);
+        identity.emplace_back(field.name, json.is_string() ? json.get<std::string>() : json.dump());
+    });
+    identity.emplace_back("layers", listOf(settings.layers));
+    return identity;
 }
 
 /// The layers with these names.
@@ -130,30 +185,31 @@ Checkpoint parse(std::string_view bytes, const Fail& fail) {
     bytes.remove_prefix(headerBytes);
     FilmOrigin origin = originFrom(header);
     const nlohmann::json& film = header.at("film");
-    const auto& [width, height] = std::pair(origin.settings.width, origin.settings.height);
-    const std::size_t pixels = std::size_t{width} * height;
+    Film::Contents contents;
+    contents.width = origin.settings.width;
+    contents.height = origin.settings.height;
+    contents.layers = origin.settings.layers = layersNamed(film.at("layers"), fail);
+    film.at("quantum").get_to(contents.quantum);
+    film.at("light_paths").get_to(contents.lightPaths);
+    film.at("carries").get_to(contents.carries);
+    const std::size_t pixels = std::size_t{contents.width} * contents.height;
     const bool light = film.at("light_sums").get<bool>();
-    origin.settings.layers = layersNamed(film.at("layers"), fail);
-    const std::size_t channels = channelsOf(origin.settings.layers);
+    const std::size_t channels = channelsOf(contents.layers);
     if (bytes.size() != pixels * (sizeof(std::uint32_t) + (light ? 2 : 1) * sizeof(Film::PixelSum) +
                                   channels * sizeof(std::int64_t)))
         fail(kPartsDoNotFit);
-    auto samples = take<Film::Samples>(bytes, pixels);
-    auto sums = take<Film::Sums>(bytes, pixels);
-    auto lightPathSums = light ? take<Film::Sums>(bytes, pixels) : Film::Sums();
-    auto layerSums = take<Film::LayerSums>(bytes, pixels * channels);
-    const FilmLayerSet layers = origin.settings.layers;
+    contents.samples = take<Film::Samples>(bytes, pixels);
+    contents.sums = take<Film::Sums>(bytes, pixels);
+    if (light) contents.lightPathSums = take<Film::Sums>(bytes, pixels);
+    contents.layerSums = take<Film::LayerSums>(bytes, pixels * channels);
     return {std::move(origin),
-            {Film(width, height, film.at("quantum").get<float>(), std::move(sums), std::move(samples),
-                  std::move(lightPathSums), film.at("light_paths").get<std::uint64_t>(),
-                  film.at("carries").get<Film::Carries>(), layers, std::move(layerSums)),
-             film.at("last_bounce").get<double>(), film.at("previous_bounce").get<double>(),
-             film.at("overflowed").get<bool>()}};
+            {Film(std::move(contents)), film.at("last_bounce").get<double>(),
+             film.at("previous_bounce").get<double>(), film.at("overflowed").get<bool>()}};
 }
 
 }  // namespace
 
-FilmOrigin originOf(const Scene& scene, const RenderSettings& settings, std::uint32_t firstSample,
+FilmOrigin originOf(const Scene& scene, const RenderSettings& settings, SampleRange samples,
                     bool directLightInClosedForm) {
     return {scene.source.string(),
             hashScene(scene),
@@ -161,7 +217,7 @@ FilmOrigin originOf(const Scene& scene, const RenderSettings& settings, std::uin
             settings,
             directLightInClosedForm ? DirectLight::kClosedForm : DirectLight::kSampled,
             scene.display,
-            firstSample};
+            samples};
 }
 
 void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin, const Film& film,
@@ -229,21 +285,13 @@ std::uint32_t samplesTaken(const Film& film) {
 
 void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& origin, const FilmOrigin& wanted,
                        const std::string& wantedFrom) {
-    const auto require = [&](const char* what, const auto& here, const auto& there) {
-        if (here == there) return;
-        throw InputError(file.string(), what, fmt::format("is {}, but {} of {}", here, there, wantedFrom),
+    const auto here = identityOf(origin), there = identityOf(wanted);
+    for (std::size_t i = 0; i < here.size(); ++i) {
+        if (here[i] == there[i]) continue;
+        throw InputError(file.string(), here[i].first,
+                         fmt::format("is {}, but {} of {}", here[i].second, there[i].second, wantedFrom),
                          "expected the same scene and settings");
-    };
-    const RenderSettings &a = origin.settings, &b = wanted.settings;
-    require("size", fmt::format("{}x{}", a.width, a.height), fmt::format("{}x{}", b.width, b.height));
-    require("reflectance", origin.reflectance, wanted.reflectance);
-    require("scene hash", origin.sceneHash, wanted.sceneHash);
-    require("integrator", std::string(nameOf(a.integrator)), std::string(nameOf(b.integrator)));
-    require("bounces", a.bounces, b.bounces);
-    require("seed", a.seed, b.seed);
-    require("sampler", std::string(nameOf(a.sampler)), std::string(nameOf(b.sampler)));
-    require("layers", listOf(a.layers), listOf(b.layers));
-    require("direct light", std::string(nameOf(origin.directLight)), std::string(nameOf(wanted.directLight)));
+    }
 }
 
 }  // namespace duolux

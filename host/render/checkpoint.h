@@ -12,10 +12,10 @@ struct FilmOrigin {
     std::string sceneFile;  ///< for information; not compared
     std::string sceneHash;
     std::string reflectance;  ///< a description; the hash covers it
-    RenderSettings settings;
-    DirectLight directLight = DirectLight::kSampled;  ///< the method used; kPath only
+    RenderSettings settings;  ///< with the spp of `samples` if they were read from a checkpoint
+    DirectLight directLight = DirectLight::kSampled;  ///< the method used, not kAuto; kPathTracer only
     glm::vec2 display{0.0f, 1.0f};                    ///< the hash covers it
-    std::uint32_t firstSample = 0;                    ///< the range is [firstSample, settings.spp)
+    SampleRange samples;                              ///< asked for; the film may have fewer
 };
 
 /// The exact state of a render. Another render can resume from it, and films of other checkpoints can be
@@ -25,18 +25,20 @@ struct Checkpoint {
     RenderState state;
 };
 
-/// `directLightInClosedForm`: see RenderStatistics.
-FilmOrigin originOf(const Scene& scene, const RenderSettings& settings, std::uint32_t firstSample,
+/// The origin of a film of these samples. `directLightInClosedForm`: see RenderStatistics.
+FilmOrigin originOf(const Scene& scene, const RenderSettings& settings, SampleRange samples,
                     bool directLightInClosedForm);
 
-/// Replaces the file atomically: a reader sees the old file or the complete new one. Throws MachineError.
+/// Replaces the file atomically: a reader sees the old file or the complete new one. The film must have the
+/// size and the layers of the origin's settings. Throws MachineError if the file cannot be written.
 void writeCheckpoint(const std::filesystem::path& path, const FilmOrigin& origin, const Film& film,
                      const RenderStatistics& statistics);
 
-/// Whether the file begins like a checkpoint of any version.
+/// Whether the file begins like a checkpoint of any version; false if it cannot be read.
 bool isCheckpoint(const std::filesystem::path& path);
 
-/// Throws InputError if the file cannot be read, is not a checkpoint, has another version, or is damaged.
+/// Throws InputError if the file cannot be read, is not a checkpoint, has another version, or is damaged,
+/// and MachineError if memory does not suffice.
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 
 /// The largest number of samples of any pixel of a film, or the number of light paths per pixel, rounded up.

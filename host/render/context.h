@@ -17,6 +17,7 @@ struct RenderContext {
     const RenderSettings& settings;
     const RenderControl& control;
     const DeviceScene& deviceScene;
+    SampleRange range;  ///< to trace, including those that were resumed
     Film film;
     RenderStatistics statistics;
     /// Displayed radiance of paths with the largest number of scattering events, and with one fewer: sums

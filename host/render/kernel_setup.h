@@ -19,7 +19,7 @@ struct RenderInputs {
     const RenderSettings& settings;
 };
 
-/// The uniform block, shared::PathParams.
+/// The uniform block, shared::PathParams. Throws MachineError if memory does not suffice.
 Buffer uploadParams(const RenderInputs& inputs);
 
 /// The scene's buffers and the uniform block.

@@ -123,7 +123,7 @@ class LightTracer {
 
     /// The number of the first path that has not been traced.
     std::uint64_t nextPath() const {
-        return context_.control.firstSample * context_.pixels() + context_.film.lightPaths();
+        return context_.range.begin * context_.pixels() + context_.film.lightPaths();
     }
 
     std::uint32_t dispatchPaths(const LightTracerKernel& kernel, std::uint64_t left) const {

@@ -42,8 +42,9 @@ class LightTracerKernel {
     std::uint32_t lanePaths() const { return lanePaths_; }
     void limitLanePaths(std::uint32_t paths) { lanePaths_ = std::min(lanePaths_, paths); }
 
-    /// Submits a dispatch. Two may be in flight, in the places 0 and 1. Each adds to the film on the device,
-    /// whose unit is `quantum`.
+    /// Submits a dispatch of at most maxPaths() paths. Two may be in flight, in the places 0 and 1. Each adds
+    /// to the film on the device, whose unit is `quantum`. Throws MachineError if the device fails, as do all
+    /// functions below.
     void submit(unsigned place, const PathRange& range, float quantum);
 
     struct Results {

@@ -56,8 +56,8 @@ class PathTracer {
             control.maxSamplesPerDispatch > 0
                 ? std::min(PathTracerKernel::kMaxSamples, control.maxSamplesPerDispatch)
                 : PathTracerKernel::kMaxSamples;
-        Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), control.firstSample,
-                          context_.settings.spp, kernel.maxPixels(), maxSamples);
+        Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), context_.range, kernel.maxPixels(),
+                          maxSamples);
         if (context_.samplesResumed > 0) schedule.resume(samplesOfPixels());
         if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.laneSamples();

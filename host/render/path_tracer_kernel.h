@@ -30,7 +30,8 @@ class PathTracerKernel {
     static constexpr std::uint32_t kMaxPixels = 1u << 18;
 
     /// `maxPixels`: largest number of pixels in one dispatch. `closedForm`: direct light is computed in
-    /// closed form instead of being sampled. The device scene and `pixels` must outlive this object.
+    /// closed form instead of being sampled. The device scene and `pixels` must outlive this object. Throws
+    /// MachineError if memory does not suffice or the driver fails to compile the kernel.
     PathTracerKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels,
                      std::uint32_t maxPixels, bool closedForm);
 
@@ -47,8 +48,9 @@ class PathTracerKernel {
     std::uint32_t firstLookPixel() const { return static_cast<std::uint32_t>(pixels_.size()); }
     std::uint32_t lookPixels() const { return lookPixels_; }
 
-    /// Submits a dispatch. Two may be in flight, in the places 0 and 1. A range has at most laneSamples()
-    /// samples of a pixel. `quantum`: of the film.
+    /// Submits a dispatch. Two may be in flight, in the places 0 and 1. A range has at most maxPixels()
+    /// pixels and laneSamples() samples of a pixel. `quantum`: of the film. Throws MachineError if the device
+    /// fails.
     void submit(unsigned place, const WorkRange& range, float quantum);
 
     struct Results {
@@ -57,7 +59,7 @@ class PathTracerKernel {
         bool complete;              ///< the driver did not end the loops of any team early
         double deviceSeconds;
     };
-    /// Waits for the dispatch in a place.
+    /// Waits for the dispatch in a place. Throws MachineError if the device fails.
     Results wait(unsigned place);
 
     /// The statistics of a dispatch: sums over its samples. See shared::PixelResult.

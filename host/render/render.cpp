@@ -34,7 +34,7 @@ double meanDisplayed(const Film& film, glm::vec2 display) {
 }  // namespace
 
 std::uint64_t RenderContext::samplesTotal() const {
-    const std::uint64_t all = (settings.spp - control.firstSample) * pixels();
+    const std::uint64_t all = range.size() * pixels();
     return all - std::min(all, samplesResumed);
 }
 
@@ -142,7 +142,12 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
             fmt::format("{}: the light tracer traces no camera rays, from which layers are filled",
                         scene.source.string()));
     }
-    RenderContext context{device, scene, settings, control, deviceScene, makeFilm(settings), {}};
+    const SampleRange range = control.samples.value_or(SampleRange{0, settings.spp});
+    if (range.begin >= range.end) {
+        throw UsageError(fmt::format("{}: the range of samples from {} to {} is empty", scene.source.string(),
+                                     range.begin, range.end));
+    }
+    RenderContext context{device, scene, settings, control, deviceScene, range, makeFilm(settings), {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;
         assert(state.film.width() == settings.width && state.film.height() == settings.height);

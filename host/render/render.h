@@ -11,15 +11,15 @@
 #include "host/base/error.h"
 #include "host/device_scene/tuning.h"
 #include "host/film/film.h"
+#include "host/film/sample_range.h"
 #include "host/scene/scene.h"
 #include "host/vk/device.h"
 
 namespace duolux {
 
-/// The progress of a render; passed to RenderControl::onProgress after every dispatch. With the light tracer,
-/// samples are light paths.
+/// The progress of a render; passed to RenderControl::onProgress after every dispatch.
 struct RenderProgress {
-    /// Over all pixels, excluding resumed samples.
+    /// Samples of all pixels, or light paths, excluding resumed ones.
     std::uint64_t samplesDone = 0, samplesTotal = 0;
     double seconds = 0.0;  ///< since the first dispatch
 };
@@ -41,12 +41,13 @@ struct RenderState {
 };
 
 struct RenderControl {
-    /// The render traces the samples [firstSample, spp) of every pixel. With the light tracer, both numbers
-    /// are multiplied by the number of pixels to give the range of light paths.
-    std::uint32_t firstSample = 0;
-    /// The state to resume from. Scene, firstSample and all settings except spp must be identical.
+    /// The samples to trace, at least one per pixel; by default the first RenderSettings::spp.
+    std::optional<SampleRange> samples;
+    /// The state to resume from. Scene, samples.begin and all settings except spp must be identical. If the
+    /// state has more samples than are to be traced, its film is the result.
     const RenderState* resume = nullptr;
-    /// Called about every checkpointSeconds with the film so far, from the rendering thread.
+    /// Called about every checkpointSeconds with the film so far, from the rendering thread. What it throws
+    /// ends the render.
     std::function<void(const Film&, const RenderStatistics&)> onCheckpoint;
     double checkpointSeconds = 60.0;
     DirectLight directLight = DirectLight::kAuto;
@@ -78,7 +79,9 @@ struct RenderStatistics {
     double longestDispatchSeconds = 0.0;  ///< by timestamps
     std::uint64_t dispatches = 0;
     std::uint64_t dispatchesCutShort = 0;  ///< ended early by the driver and traced again in smaller parts
-    std::uint64_t samples = 0;             ///< pixel samples taken, or light paths
+    std::uint64_t samples = 0;             ///< of all pixels, or light paths; excluding resumed ones
+    /// Numbers of rays: from the camera, from emitters, from surfaces, to emitters or to the camera, and
+    /// those that only search for emitters.
     std::uint64_t cameraRays = 0, lightRays = 0, bounceRays = 0, shadowRays = 0, emitterRays = 0;
     std::uint64_t nonFiniteSamples = 0;  ///< dropped; 0 unless something is wrong
     bool filmOverflowed = false;         ///< some radiance exceeded Film::largestRadiance
@@ -118,10 +121,10 @@ class RenderFailure : public MachineError {
 };
 
 /// Renders a scene once; see Renderer for more. The film includes the resumed samples. Identical scene,
-/// settings, seed and device give a bitwise identical image. Throws UsageError if direct light in closed form
-/// is requested but does not apply, if the light tracer is asked for layers, or if the device does not
-/// support the requested tuning. Throws MachineError with the stage and the driver if the device fails, or
-/// RenderFailure once there are samples.
+/// settings, seed and device give a bitwise identical image. Throws UsageError if the range of samples is
+/// empty, if direct light in closed form is requested but does not apply, if the light tracer is asked for
+/// layers, or if the device does not support the requested tuning. Throws MachineError with the stage and the
+/// driver if the device fails, or RenderFailure once there are samples.
 RenderOutput render(Device& device, const Scene& scene, const RenderSettings& settings,
                     const RenderControl& control = {});
 

@@ -14,16 +14,16 @@ constexpr std::uint32_t kBehindPixels = 2048;  // pixels in a resumed range
 
 }  // namespace
 
-Schedule::Schedule(std::uint32_t pixels, std::uint32_t firstSample, std::uint32_t endSample,
-                   std::uint32_t maxPixels, std::uint32_t maxSamples)
+Schedule::Schedule(std::uint32_t pixels, SampleRange samples, std::uint32_t maxPixels,
+                   std::uint32_t maxSamples)
     : pixels_(pixels),
-      firstSample_(firstSample),
-      endSample_(endSample),
+      firstSample_(samples.begin),
+      endSample_(samples.end),
       maxPixels_(maxPixels),
       maxSamples_(maxSamples),
-      passBegin_(firstSample),
-      passEnd_(firstSample + 1),
-      nextSample_(firstSample) {}
+      passBegin_(samples.begin),
+      passEnd_(samples.begin + 1),
+      nextSample_(samples.begin) {}
 
 void Schedule::retry(WorkRange range) {
     if (!range.again) unsettled_ += range.size();

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "host/film/sample_range.h"
+
 namespace duolux {
 
 /// A range of work: samples [firstSample, firstSample + samples) of the pixels [firstPixel, firstPixel +
@@ -33,12 +35,11 @@ enum class Wanted : std::uint8_t {
 /// early has about the same number of samples in every pixel.
 class Schedule {
   public:
-    /// Schedules the samples [firstSample, endSample) of every pixel, with at most maxPixels pixels and
-    /// maxSamples samples of a pixel in one dispatch.
-    Schedule(std::uint32_t pixels, std::uint32_t firstSample, std::uint32_t endSample,
-             std::uint32_t maxPixels, std::uint32_t maxSamples);
+    /// Schedules these samples of `pixels` pixels, with at most maxPixels pixels and maxSamples samples of a
+    /// pixel in one dispatch.
+    Schedule(std::uint32_t pixels, SampleRange samples, std::uint32_t maxPixels, std::uint32_t maxSamples);
 
-    /// Resumes from a state in which `taken` samples of each pixel have been traced, from firstSample on.
+    /// Resumes from a state in which `taken` samples of each pixel have been traced, from samples.begin on.
     /// Must be called before the first next().
     void resume(std::span<const std::uint32_t> taken);
 

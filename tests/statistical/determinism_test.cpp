@@ -101,9 +101,8 @@ TEST(Determinism, LightPathsAreNumberedBeyond32Bits) {
     far.settings.height = 16;
     const auto film = [&](std::uint32_t first, std::uint32_t pathsPerDispatch) {
         RenderControl control;
-        control.firstSample = first;
+        control.samples = SampleRange{first, first + 4};
         control.maxPixelsPerDispatch = pathsPerDispatch;
-        far.settings.spp = first + 4;
         return filmOf(far, control);
     };
     constexpr std::uint32_t kBeyond = 1u << 23;  // times 512 pixels: path 2^32

@@ -13,8 +13,8 @@ inline bool sameBits(const Film& a, const Film& b) {
     };
     return a.quantum() == b.quantum() && std::ranges::equal(a.samples(), b.samples()) &&
            a.lightPaths() == b.lightPaths() && std::ranges::equal(a.sums(), b.sums(), equal) &&
-           std::ranges::equal(a.lightPathSums(), b.lightPathSums(), equal) && a.layers() == b.layers() &&
-           std::ranges::equal(a.layerSums(), b.layerSums());
+           std::ranges::equal(a.lightPathSums(), b.lightPathSums(), equal) && a.carries() == b.carries() &&
+           a.layers() == b.layers() && std::ranges::equal(a.layerSums(), b.layerSums());
 }
 
 inline LoadedScene byLight(LoadedScene scene) {

@@ -200,9 +200,12 @@ TEST(NormalLayer, LeavesRadianceAsItIs) {
     const Film without = render(device(), scene).film;
     EXPECT_TRUE(without.layerSums().empty());
     EXPECT_FALSE(sameBits(with, without));
-    const Film radiance(with.width(), with.height(), with.quantum(),
-                        Film::Sums(with.sums().begin(), with.sums().end()),
-                        Film::Samples(with.samples().begin(), with.samples().end()), {}, 0, with.carries());
+    const Film radiance({.width = with.width(),
+                         .height = with.height(),
+                         .quantum = with.quantum(),
+                         .sums = Film::Sums(with.sums().begin(), with.sums().end()),
+                         .samples = Film::Samples(with.samples().begin(), with.samples().end()),
+                         .carries = with.carries()});
     EXPECT_TRUE(sameBits(radiance, without));
 }
 
@@ -230,11 +233,9 @@ TEST(NormalLayer, IsTheSameBitsHoweverTheWorkIsSplit) {
     Film sum(whole.width(), whole.height(), whole.quantum(), kLayerNormal);
     const std::uint32_t bounds[] = {0, 1, 8, 21};
     for (const int i : {2, 0, 1}) {
-        LoadedScene range = scene;
-        range.settings.spp = bounds[i + 1];
         RenderControl control;
-        control.firstSample = bounds[i];
-        sum.add(render(device(), range, control).film);
+        control.samples = SampleRange{bounds[i], bounds[i + 1]};
+        sum.add(render(device(), scene, control).film);
     }
     EXPECT_TRUE(sameBits(sum, whole));
 

@@ -255,13 +255,30 @@ TEST(LightPaths, SumsOfGrowingLightAreTheSameBits) {
     EXPECT_FALSE(whole.statistics.filmOverflowed);
     EXPECT_GT(whole.statistics.previousBounceRadiance, 0.0);
     EXPECT_GT(whole.statistics.lastBounceRadiance, 10.0 * whole.statistics.previousBounceRadiance);
+
+    // In a finer unit than the light tracer would choose.
+    const RenderState fine{Film(whole.film.width(), whole.film.height(), whole.film.quantum() * 0x1p-24f),
+                           0.0, 0.0, false};
+    const auto filmOf = [&](RenderControl control) {
+        control.resume = &fine;
+        return render(device(), scene, control).film;
+    };
+    const Film expected = filmOf({});
+    EXPECT_FALSE(expected.carries().empty());
     for (const auto& [noInt64Atomics, pathsPerDispatch] :
          {std::pair(true, 0u), {false, 5000u}, {true, 5000u}}) {
         RenderControl control;
         control.noInt64Atomics = noInt64Atomics;
         control.maxPixelsPerDispatch = pathsPerDispatch;
-        EXPECT_TRUE(sameBits(render(device(), scene, control).film, whole.film));
+        EXPECT_TRUE(sameBits(filmOf(control), expected));
     }
+    Film sum = fine.film;
+    for (const SampleRange& range : {SampleRange{5000, scene.settings.spp}, {0, 5000}}) {
+        RenderControl control;
+        control.samples = range;
+        sum.add(filmOf(control));
+    }
+    EXPECT_TRUE(sameBits(sum, expected));
 }
 
 }  // namespace

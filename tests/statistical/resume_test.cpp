@@ -140,12 +140,18 @@ TEST_P(Resume, RangesAddUp) {
     const std::uint32_t bounds[] = {0, 1, 8, 15, 21};
     for (int i = 3; i >= 0; --i) {
         RenderControl control;
-        control.firstSample = bounds[i];
-        const RenderOutput part = render(device(), scene(bounds[i + 1]), control);
+        control.samples = SampleRange{bounds[i], bounds[i + 1]};
+        const RenderOutput part = render(device(), scene(), control);
         EXPECT_FALSE(part.statistics.stopped);
         sum.add(part.film);
     }
     EXPECT_TRUE(sameBits(sum, whole));
+}
+
+TEST_P(Resume, AnEmptyRangeIsRefused) {
+    RenderControl control;
+    control.samples = SampleRange{3, 3};
+    EXPECT_THROW(render(device(), scene(), control), UsageError);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Resume, testing::Values(Integrator::kPathTracer, Integrator::kLightTracer),

@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 
+#include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/temporary_folder.h"
 #include "host/film/film.h"
@@ -48,6 +49,9 @@ TEST(FilmLayers, AreMeansOverSamples) {
              std::array<std::int64_t, 3>{-2 * kOne, -kOne, 1});
     const std::vector<float> expected{0, 0, 0, 0.25f, 0, -1, 0, 0, 0, 0, -0.5f, 0x1p-32f};
     EXPECT_EQ(film.resolve(kLayerNormal), expected);
+    EXPECT_THROW(film.resolve(0), UsageError);
+    EXPECT_THROW(film.resolve(kLayerNormal | FilmLayerSet{1} << 31), UsageError);
+    EXPECT_THROW(Film(2, 2, 0.25f).resolve(kLayerNormal), UsageError);
 
     const ImageRows rows = film.rows();
     ASSERT_EQ(rows.layers.size(), 1u);

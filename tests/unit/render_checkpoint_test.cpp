@@ -38,27 +38,22 @@ Film someFilm(bool light, FilmLayerSet layers = 0) {
     Film::LayerSums layerSums(samples.size() * channelsOf(layers));
     for (std::size_t i = 0; i < layerSums.size(); ++i)
         layerSums[i] = i % 2 == 0 ? next += 0x1111 : -(next += 0x1111);
-    return {kWidth,
-            kHeight,
-            0x1p-29f,
-            sums,
-            samples,
-            lightPathSums,
-            light ? 0x123456789abull : 0ull,
-            {{3, 7}, {50, -1}},
-            layers,
-            layerSums};
+    return Film({.width = kWidth,
+                 .height = kHeight,
+                 .quantum = 0x1p-29f,
+                 .sums = sums,
+                 .samples = samples,
+                 .lightPathSums = lightPathSums,
+                 .lightPaths = light ? 0x123456789abull : 0ull,
+                 .carries = {{3, 7}, {50, -1}},
+                 .layers = layers,
+                 .layerSums = layerSums});
 }
 
 FilmOrigin someOrigin() {
-    FilmOrigin origin{"a \"scene\".json",
-                      "0123456789abcdef",
-                      "blend 0.5,1",
-                      {},
-                      DirectLight::kClosedForm,
-                      {0.25f, -1.5f},
-                      7};
-    origin.settings = {kWidth, kHeight, 33, 12, 0xfffffff0u, Sampler::kIndependent, Integrator::kLightTracer};
+    FilmOrigin origin{"a \"scene\".json",       "0123456789abcdef", "blend 0.5,1", {},
+                      DirectLight::kClosedForm, {0.25f, -1.5f},     {7, 33}};
+    origin.settings = {kWidth, kHeight, 26, 12, 0xfffffff0u, Sampler::kIndependent, Integrator::kLightTracer};
     return origin;
 }
 
@@ -116,8 +111,9 @@ TEST_F(CheckpointTest, KeepsEverything) {
         EXPECT_TRUE(read.state.filmOverflowed);
         EXPECT_EQ(read.origin.sceneFile, origin.sceneFile);
         EXPECT_EQ(read.origin.display, origin.display);
-        EXPECT_EQ(read.origin.firstSample, 7u);
-        EXPECT_EQ(read.origin.settings.spp, 33u);
+        EXPECT_EQ(read.origin.samples.begin, 7u);
+        EXPECT_EQ(read.origin.samples.end, 33u);
+        EXPECT_EQ(read.origin.settings.spp, 26u);
         EXPECT_NO_THROW(requireSameOrigin(file_, read.origin, origin, "itself"));
     }
 }
@@ -200,7 +196,7 @@ TEST_F(CheckpointTest, AnotherOriginIsRefusedByName) {
         }
     }
     FilmOrigin range = someOrigin();
-    range.firstSample = 0;
+    range.samples = {0, 99};
     range.settings.spp = 99;
     EXPECT_NO_THROW(requireSameOrigin(file_, range, someOrigin(), "this render"));
 }

@@ -29,7 +29,7 @@ void expectEachOnce(const Counts& counts, std::size_t pixels, std::size_t sample
 TEST(Schedule, HandsOutEachSampleOnceAtAnySpeed) {
     for (const double seconds : {0.0, 1e-9, 1e-6, 1e-4, 1.0}) {
         for (const std::uint32_t lane : {1u, 3u, 128u}) {
-            Schedule schedule(700, 0, 21, 300, 16);
+            Schedule schedule(700, {0, 21}, 300, 16);
             Counts counts;
             std::uint32_t firstSamplePixels = 0;
             while (const auto range = schedule.next(seconds, lane, Wanted::kAll)) {
@@ -51,21 +51,21 @@ TEST(Schedule, HandsOutEachSampleOnceAtAnySpeed) {
 }
 
 TEST(Schedule, RunsTakeAboutTheTimeOfADispatch) {
-    Schedule schedule(1u << 20, 0, 100, 1u << 18, 16);
+    Schedule schedule(1u << 20, {0, 100}, 1u << 18, 16);
     while (schedule.next(2e-6, 128, Wanted::kAll)->firstSample == 0) {
     }
     const WorkRange range = *schedule.next(2e-6, 128, Wanted::kAll);
     EXPECT_EQ(range.samples, 16u);
     EXPECT_NEAR(static_cast<double>(range.size()) * 2e-6, kDispatchSeconds, 0.05 * kDispatchSeconds);
     // If a sample is slow, a range has few samples of few pixels.
-    Schedule slow(1000, 0, 100, 1000, 16);
+    Schedule slow(1000, {0, 100}, 1000, 16);
     while (slow.next(1e-3, 128, Wanted::kAll)->firstSample == 0) {
     }
     EXPECT_LE(slow.next(1e-3, 128, Wanted::kAll)->size(), 128u);
 }
 
 TEST(Schedule, ChangesOfTheLimitWithinARunLoseNothing) {
-    Schedule schedule(500, 0, 40, 500, 16);
+    Schedule schedule(500, {0, 40}, 500, 16);
     Counts counts;
     const std::uint32_t limits[] = {128, 5, 7, 2, 128, 1, 3, 16};
     std::size_t i = 0;
@@ -77,7 +77,7 @@ TEST(Schedule, ChangesOfTheLimitWithinARunLoseNothing) {
 }
 
 TEST(Schedule, RetriesComeInPartsThatFit) {
-    Schedule schedule(100, 0, 17, 100, 16);
+    Schedule schedule(100, {0, 17}, 100, 16);
     Counts counts;
     count(counts, *schedule.next(0.0, 128, Wanted::kAll));
     const WorkRange cut = *schedule.next(0.0, 128, Wanted::kAll);
@@ -91,7 +91,7 @@ TEST(Schedule, RetriesComeInPartsThatFit) {
 }
 
 TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
-    Schedule schedule(600, 0, 9, 256, 16);
+    Schedule schedule(600, {0, 9}, 256, 16);
     Counts counts;
     const WorkRange first = *schedule.next(0.0, 128, Wanted::kAll);
     schedule.retry(first);
@@ -128,7 +128,7 @@ TEST(Schedule, GoesOnFromAnyState) {
         for (std::uint32_t pixel = 0; pixel < taken.size(); ++pixel) {
             if (taken[pixel] > 0) count(counts, {pixel, 1, kFirst, taken[pixel]});
         }
-        Schedule schedule(static_cast<std::uint32_t>(taken.size()), kFirst, kEnd, 100, 16);
+        Schedule schedule(static_cast<std::uint32_t>(taken.size()), {kFirst, kEnd}, 100, 16);
         schedule.resume(taken);
         while (const auto range = schedule.next(1e-5, 11, Wanted::kAll)) {
             EXPECT_LE(range->pixels, 100u);
@@ -148,7 +148,7 @@ TEST(Schedule, GoesOnFromAnyState) {
     resumed(uneven);
 
     // With a limit below the samples that some pixels already have, the other pixels do not exceed the limit.
-    Schedule fewer(300, kFirst, kFirst + 9, 100, 16);
+    Schedule fewer(300, {kFirst, kFirst + 9}, 100, 16);
     fewer.resume(uneven);
     Counts some;
     while (const auto range = fewer.next(0.0, 128, Wanted::kAll))
@@ -158,7 +158,7 @@ TEST(Schedule, GoesOnFromAnyState) {
         EXPECT_TRUE(work.second < kFirst + 9 && times == 1);
 
     // When the time is up, pixels without a sample get only one.
-    Schedule schedule(300, kFirst, kEnd, 100, 16);
+    Schedule schedule(300, {kFirst, kEnd}, 100, 16);
     schedule.resume(uneven);
     Counts counts;
     while (const auto range = schedule.next(0.0, 128, Wanted::kFirstPass))
