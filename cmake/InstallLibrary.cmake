@@ -3,8 +3,8 @@
 set(DUOLUX_INCLUDES ${CMAKE_INSTALL_INCLUDEDIR}/duolux)
 set(DUOLUX_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/duolux)
 
-# duolux_install_library(FOLDER...): installs the libraries of these folders of host/ and of the shaders, and their headers,
-# except internal ones, which include Vulkan's.
+# duolux_install_library(FOLDER...): installs the libraries of these folders of host/ and of the shaders, and the public
+# headers.
 function(duolux_install_library)
   add_library(duolux_all INTERFACE)
   set_target_properties(duolux_all PROPERTIES EXPORT_NAME duolux)
@@ -14,12 +14,10 @@ function(duolux_install_library)
   install(TARGETS duolux_all duolux_shaders ${libraries} EXPORT duolux
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${DUOLUX_INCLUDES})
   install(EXPORT duolux NAMESPACE duolux:: FILE duoluxTargets.cmake DESTINATION ${DUOLUX_PACKAGE})
-  install(FILES duolux.h DESTINATION ${DUOLUX_INCLUDES})
-  foreach(folder ${ARGN})
-    install(DIRECTORY ${folder} DESTINATION ${DUOLUX_INCLUDES}/host
-      FILES_MATCHING PATTERN "*.h" PATTERN vk/handles.h EXCLUDE PATTERN vk/instance.h EXCLUDE)
-  endforeach()
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/shaders/shared DESTINATION ${DUOLUX_INCLUDES}/shaders FILES_MATCHING PATTERN "*.h")
+  install(CODE "
+    set(SOURCE \"${CMAKE_SOURCE_DIR}\")
+    set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${DUOLUX_INCLUDES}\")
+    include(\"${CMAKE_SOURCE_DIR}/cmake/InstallHeaders.cmake\")")
   include(CMakePackageConfigHelpers)
   write_basic_package_version_file(${CMAKE_BINARY_DIR}/duoluxConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_SOURCE_DIR}/cmake/duoluxConfig.cmake ${CMAKE_BINARY_DIR}/duoluxConfigVersion.cmake

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "host/app/commands.h"
-#include "host/app/console.h"
 #include "host/app/machine_options.h"
-#include "host/app/options.h"
-#include "host/app/outputs.h"
 #include "host/app/tuning_options.h"
 #include "host/base/error.h"
 #include "host/base/temporary_folder.h"
+#include "host/cli/console.h"
+#include "host/cli/options.h"
+#include "host/cli/outputs.h"
 #include "host/tools/bench/bench_report.h"
 #include "host/tools/bench/builtin_scenes.h"
 #include "host/tools/bench/suite.h"
@@ -138,14 +138,10 @@ void addBenchCommand(CLI::App& app) {
                      fmt::format("Scene files (.json, .obj, .ply), or built-in: {}",
                                  fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
-    command
-        ->add_option("--only", options->only,
-                     fmt::format("Only benchmarks whose names contain this text; may be repeated. Names are "
-                                 "SCENE/ and one of {}",
-                                 kBenchmarkNames))
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->take_all();
+    addRepeatable(*command, "--only", options->only,
+                  fmt::format("Only benchmarks whose names contain this text; may be repeated. Names are "
+                              "SCENE/ and one of {}",
+                              kBenchmarkNames));
     addDeviceOption(*command, options->device);
     addThreadsOption(*command);
     addTuningOptions(*command, options->tuning);

@@ -13,11 +13,11 @@
 
 #include "host/app/commands.h"
 #include "host/app/machine_options.h"
-#include "host/app/options.h"
-#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/nearest_name.h"
 #include "host/base/version.h"
+#include "host/cli/options.h"
+#include "host/cli/outputs.h"
 #include "host/tools/compare/heat_map.h"
 
 namespace duolux {
@@ -179,13 +179,9 @@ void addCompareCommand(CLI::App& app) {
         ->check(between(1e-6, 1.0))
         ->capture_default_str()
         ->type_name("EPS");
-    command
-        ->add_option("--fail-above", arguments->limits,
-                     "Exit with status 1 if a metric (named as in the JSON; the magnitude if it is signed) "
-                     "exceeds VALUE; may be given several times")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->take_all()
+    addRepeatable(*command, "--fail-above", arguments->limits,
+                  "Exit with status 1 if a metric (named as in the JSON; the magnitude if it is signed) "
+                  "exceeds VALUE; may be given several times")
         ->type_name("METRIC=VALUE");
     command
         ->add_option("--exposure", arguments->exposure,

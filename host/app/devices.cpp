@@ -55,7 +55,7 @@ void runDevices(bool json) {
     const DeviceInfo* chosen = nullptr;
     try {
         chosen = &selectDevice(devices, "");
-    } catch (const MachineError&) {
+    } catch (const DeviceError&) {
         // No device is usable; the list shows why.
     }
     if (json) {
@@ -66,7 +66,7 @@ void runDevices(bool json) {
         for (const DeviceInfo& device : devices)
             printDevice(device, &device == chosen);
     }
-    if (chosen == nullptr) throw MachineError("no usable Vulkan device");
+    if (chosen == nullptr) throw DeviceError("no usable Vulkan device");
     if (!json) fmt::print("\n* is the default for --device.\n");
 }
 

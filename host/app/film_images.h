@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/app/outputs.h"
+#include "host/cli/outputs.h"
 #include "host/film/image.h"
 #include "host/render/checkpoint.h"
 

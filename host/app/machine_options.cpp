@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "host/app/options.h"
 #include "host/base/parallel.h"
+#include "host/cli/options.h"
 
 namespace duolux {
 
@@ -24,7 +24,7 @@ auto withDriver(const Step& step) {
             const char* value = std::getenv(name);
             if (value != nullptr) line += fmt::format("; {} is set to '{}'", name, value);
         }
-        throw MachineError(line);
+        throw DeviceError(line);
     }
 }
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "host/app/commands.h"
-#include "host/app/console.h"
 #include "host/app/film_images.h"
-#include "host/app/options.h"
-#include "host/app/outputs.h"
 #include "host/base/error.h"
+#include "host/cli/console.h"
+#include "host/cli/options.h"
+#include "host/cli/outputs.h"
 #include "host/render/checkpoint.h"
 
 namespace duolux {
@@ -85,14 +85,10 @@ void addMergeCommand(CLI::App& app) {
     const auto options = std::make_shared<MergeOptions>();
     CLI::App* command = app.add_subcommand(
         "merge", "Add partial renders; the result is identical to one render of all samples");
-    command
-        ->add_option("-o,--output", options->outputs,
-                     "Image to write: .exr, .png or .pfm; may be given several times")
+    addRepeatable(*command, "-o,--output", options->outputs,
+                  "Image to write: .exr, .png or .pfm; may be given several times")
         ->required()
-        ->type_name("FILE")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->take_all();
+        ->type_name("FILE");
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")
         ->type_name("STOPS")
         ->check(between(-64.0, 64.0));

@@ -8,6 +8,7 @@
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
+#include "host/cli/options.h"
 #include "host/film/image.h"
 #include "host/scene/reflectance.h"
 
@@ -67,8 +68,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
     command
         .add_option(
             "--direct-light", options.directLight,
-            "Direct light in the path tracer: sampled; closed-form: without noise, only where nothing blocks "
-            "emitters (local, shadowless); auto (default): closed-form for local, otherwise sampled")
+            "Direct light in the path tracer: sampled; closed-form: without noise, only for diffuse, flat "
+            "surfaces where nothing blocks emitters (local, shadowless); auto (default): closed-form for "
+            "local, otherwise sampled")
         ->type_name("NAME")
         ->check(oneOf({"auto", "sampled", "closed-form"}));
     addDeviceOption(command, options.device);

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "host/app/commands.h"
-#include "host/app/options.h"
-#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
+#include "host/cli/options.h"
+#include "host/cli/outputs.h"
 #include "host/film/image.h"
 
 namespace duolux {
@@ -66,12 +66,8 @@ void addSheetCommand(CLI::App& app) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str()
         ->type_name("N");
-    command
-        ->add_option("--label", options->labels,
-                     "Caption of the first, second, ... image (default: the file's name)")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->take_all()
+    addRepeatable(*command, "--label", options->labels,
+                  "Caption of the first, second, ... image (default: the file's name)")
         ->type_name("TEXT");
     command->add_option("IMAGE", options->images, "Images of one size")->required()->type_name("");
     command->callback([options] { runSheet(*options); });

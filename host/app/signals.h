@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "host/app/exit_status.h"
+#include "host/cli/exit_status.h"
 
 namespace duolux {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "host/app/options.h"
+#include "host/cli/options.h"
 
 namespace duolux {
 

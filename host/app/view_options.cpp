@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "host/app/options.h"
 #include "host/base/error.h"
+#include "host/cli/options.h"
 #include "host/scene/mesh.h"
 #include "host/view/view_samples.h"
 

@@ -28,10 +28,22 @@ class UsageError : public Error {
     using Error::Error;
 };
 
-/// The device or the machine failed: a Vulkan call, memory, a full disk.
+/// The device or the machine failed: one of the kinds below, or for example a full disk.
 class MachineError : public Error {
   public:
     using Error::Error;
+};
+
+/// A device is missing, a call to it failed, or its limits other than memory do not suffice.
+class DeviceError : public MachineError {
+  public:
+    using MachineError::MachineError;
+};
+
+/// The memory of the device or of the host does not suffice.
+class MemoryError : public MachineError {
+  public:
+    using MachineError::MachineError;
 };
 
 }  // namespace duolux

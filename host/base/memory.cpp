@@ -20,11 +20,11 @@ std::string addressSpaceHint() {
     return fmt::format("; this process may use only {} MiB of address space, see 'ulimit -v'", limit >> 20);
 }
 
-MachineError outOfMemory(std::string_view what, std::string_view remedy) {
-    return MachineError(fmt::format("{}: out of memory{}; {}", what, addressSpaceHint(), remedy));
+MemoryError outOfMemory(std::string_view what, std::string_view remedy) {
+    return MemoryError(fmt::format("{}: out of memory{}; {}", what, addressSpaceHint(), remedy));
 }
 
-MachineError outOfMemoryReading(const std::filesystem::path& file) {
+MemoryError outOfMemoryReading(const std::filesystem::path& file) {
     std::error_code unknown;
     const auto bytes = std::filesystem::file_size(file, unknown);
     const std::string size =

@@ -18,10 +18,10 @@ std::string addressSpaceHint();
 
 /// The exception for a lack of memory for `what`. `remedy`: what would help, for example "expected a smaller
 /// size".
-MachineError outOfMemory(std::string_view what, std::string_view remedy);
+MemoryError outOfMemory(std::string_view what, std::string_view remedy);
 
 /// The exception for a file that does not fit into memory.
-MachineError outOfMemoryReading(const std::filesystem::path& file);
+MemoryError outOfMemoryReading(const std::filesystem::path& file);
 
 /// Runs `step`, which reads a file. If memory runs out, the exception names the file.
 template <typename Step>

@@ -222,7 +222,7 @@ std::uint64_t DeviceScene::deviceBytes() const {
 
 void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene) {
     if (device.kind != DeviceKind::kGpu || bytes <= device.memoryBytes) return;
-    throw MachineError(
+    throw MemoryError(
         fmt::format("{}: {} triangles take {} MiB of device memory, but {} ({}) has {}; expected fewer "
                     "triangles, or a device "
                     "with more memory, as the cpu",

@@ -21,7 +21,7 @@ inline constexpr std::size_t kMostClosedFormEmitters = 16;
 /// A scene in device memory, in the records of shaders/shared.
 struct DeviceScene {
     TransportTraits traits;
-    TuningChoice choice;  ///< as it was asked for
+    TuningChoice choice;  ///< the caller's, from which `tuning` follows
     Tuning tuning;
     bool hasSmoothNormals = false;
     bool hasVertexColours = false;
@@ -47,12 +47,12 @@ struct DeviceScene {
     std::uint64_t deviceBytes() const;
 };
 
-/// Throws MachineError, with the numbers, if a scene of this size does not fit into the memory of a GPU. Not
+/// Throws MemoryError, with the numbers, if a scene of this size does not fit into the memory of a GPU. Not
 /// checked for software drivers, which use the host's memory whatever they report.
 void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Scene& scene);
 
-/// Builds the trees and uploads the scene for one of the integrators. Throws MachineError if it does not fit
-/// the device, and UsageError if the device does not support the requested tuning.
+/// Builds the trees and uploads the scene for one of the integrators. Throws MemoryError or DeviceError if it
+/// does not fit the device, and UsageError if the device does not support the requested tuning.
 DeviceScene uploadScene(const Device& device, const Scene& scene,
                         Integrator integrator = Integrator::kPathTracer, const TuningChoice& choice = {});
 

@@ -38,8 +38,7 @@ KernelKind chooseKernel(Layout layout, const TuningChoice& choice) {
     }
     if (choice.kernel == KernelKind::kRefilling) {
         throw UsageError(
-            "kernel refilling: lanes cannot leave a ray query before its end; expected kernel plain with "
-            "layout ray-query");
+            "kernel refilling: lanes cannot leave a ray query before its end; expected kernel plain");
     }
     return KernelKind::kPlain;
 }
@@ -96,7 +95,7 @@ Layout layoutThatFits(const DeviceInfo& device, Layout chosen, const TuningChoic
     // If neither layout fits, the upload reports it.
     if (bytes > largestBuffer(device, other)) return chosen;
     if (!choice.layout) return other;
-    throw MachineError(fmt::format(
+    throw DeviceError(fmt::format(
         "layout {}: a buffer of this scene takes {} bytes, more than the {} that {} ({}) can bind so; "
         "layout {} can hold it",
         nameOf(chosen), bytes, largestBuffer(device, chosen), device.name, device.driver, nameOf(other)));

@@ -50,7 +50,7 @@ struct Tuning {
 Tuning chooseTuning(const DeviceInfo& device, const TuningChoice& choice);
 
 /// Returns `chosen`, or another layout if only that one can bind a buffer of `bytes`, the larger buffer of a
-/// tree. Throws MachineError if the user requested a layout that cannot hold the scene.
+/// tree. Throws DeviceError if the caller requested a layout that cannot hold the scene.
 Layout layoutThatFits(const DeviceInfo& device, Layout chosen, const TuningChoice& choice,
                       std::uint64_t bytes);
 

@@ -9,7 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/loaders/tally.h"
-#include "host/scene/scene.h"
+#include "host/scene/material.h"
 
 namespace duolux {
 

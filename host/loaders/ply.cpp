@@ -17,7 +17,6 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/printable.h"
 #include "host/base/srgb.h"
 #include "host/loaders/ply_body.h"
 #include "host/loaders/ply_header.h"

@@ -28,7 +28,7 @@ std::uint32_t chooseBandPixels(const RenderInputs& inputs, std::uint32_t limit) 
     std::uint64_t most = device.maxStorageBufferRange / kPixelBytes;
     if (limit > 0) most = std::min<std::uint64_t>(most, limit);
     if (pixels > most * bands) {
-        throw MachineError(
+        throw DeviceError(
             fmt::format("{} ({}): a film of {}x{} pixels for light paths is too large; {} pixels can be "
                         "bound; the path tracer has no such limit",
                         device.name, device.driver, width, height, most * bands));

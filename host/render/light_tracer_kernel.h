@@ -32,7 +32,7 @@ class LightTracerKernel {
     };
 
     /// `maxPaths`: largest number of paths in one dispatch. The device scene must outlive this object. Throws
-    /// MachineError if the device cannot hold a film of the scene's size.
+    /// DeviceError if the device cannot hold a film of the scene's size.
     LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits);
 
     std::uint32_t maxPaths() const { return maxPaths_; }

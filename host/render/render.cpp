@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <exception>
 #include <new>
 #include <vector>
 
@@ -83,7 +84,7 @@ void RenderContext::summarise() {
 }
 
 void RenderContext::failCutShort() const {
-    throw MachineError(
+    throw DeviceError(
         fmt::format("tracing paths failed on {} ({}): the driver ended the loops of a single path; render "
                     "with fewer bounces "
                     "than {}, or with fewer surfaces that light passes through",
@@ -117,20 +118,24 @@ Film makeFilm(const RenderSettings& settings) {
 }
 
 void trace(RenderContext& context) {
-    if (context.settings.integrator == Integrator::kLightTracer) {
-        traceLightPaths(context);
-    } else {
-        tracePaths(context);
+    try {
+        if (context.settings.integrator == Integrator::kLightTracer) {
+            traceLightPaths(context);
+        } else {
+            tracePaths(context);
+        }
+    } catch (const std::bad_alloc&) {
+        throw outOfMemory("rendering", "expected a smaller size, or more memory");
     }
 }
 
-/// Throws a RenderFailure with the samples so far and the reason `line`, or only `line` if there are no
-/// samples.
-[[noreturn]] void failWithFilm(RenderContext& context, const std::string& line) {
-    if (context.film.totalSamples() + context.film.lightPaths() == 0) throw MachineError(line);
+/// Handles an error of trace(): throws a RenderFailure with the samples so far, in which the error is nested,
+/// or the error itself if there are no samples.
+[[noreturn]] void failWithFilm(RenderContext& context, const MachineError& error) {
+    if (context.film.totalSamples() + context.film.lightPaths() == 0) throw;
     context.statistics.stopped = true;
     context.summarise();
-    throw RenderFailure(line, {std::move(context.film), context.statistics});
+    std::throw_with_nested(RenderFailure(error.what(), {std::move(context.film), context.statistics}));
 }
 
 }  // namespace
@@ -168,9 +173,7 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
     try {
         trace(context);
     } catch (const MachineError& e) {
-        failWithFilm(context, e.what());
-    } catch (const std::bad_alloc&) {
-        failWithFilm(context, outOfMemory("rendering", "expected a smaller size, or more memory").what());
+        failWithFilm(context, e);
     }
     context.summarise();
     return {std::move(context.film), statistics};

@@ -109,7 +109,8 @@ struct RenderOutput {
     RenderStatistics statistics;
 };
 
-/// The device or the machine failed after some samples were traced; output() holds these.
+/// The device or the machine failed after some samples were traced; output() holds these. The error that
+/// ended the render, for example a DeviceError, is nested: std::rethrow_if_nested.
 class RenderFailure : public MachineError {
   public:
     RenderFailure(const std::string& line, RenderOutput output)
@@ -123,8 +124,8 @@ class RenderFailure : public MachineError {
 /// Renders a scene once; see Renderer for more. The film includes the resumed samples. Identical scene,
 /// settings, seed and device give a bitwise identical image. Throws UsageError if the range of samples is
 /// empty, if direct light in closed form is requested but does not apply, if the light tracer is asked for
-/// layers, or if the device does not support the requested tuning. Throws MachineError with the stage and the
-/// driver if the device fails, or RenderFailure once there are samples.
+/// layers, or if the device does not support the requested tuning. Throws DeviceError with the stage and the
+/// driver if the device fails, MemoryError if memory runs out, or RenderFailure once there are samples.
 RenderOutput render(Device& device, const Scene& scene, const RenderSettings& settings,
                     const RenderControl& control = {});
 

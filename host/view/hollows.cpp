@@ -15,13 +15,13 @@ SurfacePoint otherSide(const SurfacePoint& point) {
 }
 
 /// The number of random paths from one side of the surface that leave the scene.
-int escapes(const Surface& surface, const SurfacePoint& point, SmallRandom& random) {
+int escapes(const Surface& surface, const SurfacePoint& point, Random& random) {
     constexpr int kSegments = 32;
     int count = 0;
     for (int path = 0; path < kPaths; ++path) {
         SurfacePoint at = point;
         for (int i = 0; i < kSegments; ++i) {
-            const glm::vec3 direction = scattered(at.normal, random);
+            const glm::vec3 direction = cosineDirection(at.normal, random);
             const glm::vec3 origin = at.position + kOffset * at.normal;
             const auto hit = surface.firstHit(origin, direction, at.triangle);
             if (!hit) {
@@ -36,11 +36,11 @@ int escapes(const Surface& surface, const SurfacePoint& point, SmallRandom& rand
 
 }  // namespace
 
-float facedPart(const Surface& surface, const SurfacePoint& point, SmallRandom& random) {
+float facedPart(const Surface& surface, const SurfacePoint& point, Random& random) {
     int hits = 0;
     for (int i = 0; i < kPaths; ++i) {
         const glm::vec3 origin = point.position + kOffset * point.normal;
-        hits += surface.firstHit(origin, scattered(point.normal, random), point.triangle) ? 1 : 0;
+        hits += surface.firstHit(origin, cosineDirection(point.normal, random), point.triangle) ? 1 : 0;
     }
     return static_cast<float>(hits) / kPaths;
 }
@@ -48,7 +48,7 @@ float facedPart(const Surface& surface, const SurfacePoint& point, SmallRandom& 
 bool isInsideOut(const Surface& surface, const SurfacePoint& front, std::uint32_t seed) {
     constexpr float kMore = 0.3f;
     constexpr int kFewest = 2;  // a single path may escape through a crack
-    SmallRandom random(seed);
+    Random random(seed);
     const SurfacePoint back = otherSide(front);
     const float faced = facedPart(surface, back, random);
     return faced > kMore && faced > kMore + facedPart(surface, front, random) &&

@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "host/base/random.h"
 #include "host/view/illumination.h"
 
 namespace duolux {
 
 /// The part of random directions in which one side of the surface faces others.
-float facedPart(const Surface& surface, const SurfacePoint& point, SmallRandom& random);
+float facedPart(const Surface& surface, const SurfacePoint& point, Random& random);
 
 /// Whether a surface belongs to an open hollow whose inside is made of back sides, such as a box without one
 /// of its walls whose normals point outwards. `front`: a point on the front side.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "host/base/random.h"
+
 namespace duolux {
 
 namespace {
@@ -15,25 +17,6 @@ float mean(const glm::vec3& channels) {
 }
 
 }  // namespace
-
-glm::vec3 scattered(const glm::vec3& normal, SmallRandom& random) {
-    const float z = 1.0f - 2.0f * random.next();
-    const float phi = glm::two_pi<float>() * random.next();
-    const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    // A uniform point on the unit sphere that is tangent to the surface.
-    const glm::vec3 sum = normal + glm::vec3(r * std::cos(phi), r * std::sin(phi), z);
-    const float length = glm::length(sum);
-    return length > 1e-3f ? sum / length : normal;
-}
-
-float SmallRandom::next() {
-    state_ += 0x9e3779b97f4a7c15ull;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    z ^= z >> 31;
-    return static_cast<float>(z >> 40) * 0x1p-24f;
-}
 
 bool scatters(const Material& material, bool front) {
     return (front || material.sides == Sides::kBoth) && mean(meanAlbedo(material)) > 0.0f;
@@ -100,10 +83,10 @@ float Illumination::direct(const SurfacePoint& point, const glm::vec3& random) c
 
 float Illumination::onWhite(const SurfacePoint& point, std::uint32_t seed, int paths) const {
     if (emitters_.empty()) return 0.0f;
-    SmallRandom random(seed);
+    Random random(seed);
     const auto next3 = [&] {
-        const float x = random.next(), y = random.next();
-        return glm::vec3(x, y, random.next());
+        const float x = random.uniform(), y = random.uniform();
+        return glm::vec3(x, y, random.uniform());
     };
     float sum = 0.0f;
     for (int path = 0; path < paths; ++path) {
@@ -111,7 +94,7 @@ float Illumination::onWhite(const SurfacePoint& point, std::uint32_t seed, int p
         float weight = 1.0f;
         for (int i = 0; i < kScatterings; ++i) {
             sum += weight * direct(at, next3());
-            const glm::vec3 direction = scattered(at.normal, random);
+            const glm::vec3 direction = cosineDirection(at.normal, random);
             const glm::vec3 origin = at.position + kOffset * at.normal;
             const auto hit = surface_.firstHit(origin, direction, at.triangle);
             if (!hit) break;

@@ -60,17 +60,4 @@ class Illumination {
 /// Whether this side of surfaces with this material reflects light.
 bool scatters(const Material& material, bool front);
 
-/// Uniform random numbers in [0, 1) from SplitMix64 (Steele, Lea, Flood 2014).
-class SmallRandom {
-  public:
-    explicit SmallRandom(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ull) {}
-    float next();
-
-  private:
-    std::uint64_t state_;
-};
-
-/// A random direction, cosine-distributed about the normal.
-glm::vec3 scattered(const glm::vec3& normal, SmallRandom& random);
-
 }  // namespace duolux

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/parallel.h"
+#include "host/base/random.h"
 #include "host/view/hollows.h"
 
 namespace duolux {
@@ -75,7 +76,7 @@ ViewSamples::ViewSamples(const Surface& surface, const Illumination& illuminatio
             insideOut[i] = isInsideOut(surface, points[i], static_cast<std::uint32_t>(i + 1)) ? 1 : 0;
             for (std::size_t side = 0; side < 2; ++side) {
                 SurfacePoint point = points[i];
-                SmallRandom random(i + 1);
+                Random random(i + 1);
                 if (side == 1) point = {point.position, -point.normal, point.triangle, false};
                 faced[i][side] = facedPart(surface, point, random);
                 const bool reflects = scatters(surface.materialOf(point.triangle), point.front);

@@ -58,9 +58,8 @@ std::vector<Level> buildParts(const Device& device, const Buffer& vertices,
     std::vector<Level> levels;
     for (const AccelerationStructure::Part& part : parts) {
         if (part.triangles > most) {
-            throw MachineError(
-                fmt::format("{} ({}): {} triangles, more than the {} that ray queries can have",
-                            device.info().name, device.info().driver, part.triangles, most));
+            throw DeviceError(fmt::format("{} ({}): {} triangles, more than the {} that ray queries can have",
+                                          device.info().name, device.info().driver, part.triangles, most));
         }
         const vk::DeviceAddress first = vertices.address() + kVertexBytes * part.firstVertex;
         const vk::AccelerationStructureGeometryTrianglesDataKHR data(
@@ -98,7 +97,7 @@ AccelerationStructure::AccelerationStructure(const Device& device, const Buffer&
     Level top = buildTop(device, levels, parts);
     handles_ = std::make_unique<Handles>(std::move(levels), std::move(top));
 } catch (const vk::SystemError& e) {
-    throw failureOn(device.info(), "building a tree for ray queries", e);
+    failOn(device.info(), "building a tree for ray queries", e);
 }
 
 AccelerationStructure::~AccelerationStructure() = default;

@@ -21,8 +21,8 @@ class AccelerationStructure {
 
     /// `vertices`: 16 bytes each, which begin with the position as three floats, in a buffer with
     /// TreeUse::kInput. `indices`: three per triangle, relative to the part's first vertex; every part uses
-    /// them from the start. Throws MachineError if the driver fails, or if memory or the device's limits do
-    /// not suffice.
+    /// them from the start. Throws DeviceError if the driver fails or the device's limits do not
+    /// suffice, MemoryError if memory does not.
     AccelerationStructure(const Device& device, const Buffer& vertices,
                           std::span<const std::uint32_t> indices, std::span<const Part> parts);
     ~AccelerationStructure();

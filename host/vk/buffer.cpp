@@ -60,8 +60,8 @@ std::optional<std::uint32_t> memoryType(const vk::PhysicalDeviceMemoryProperties
 
 void checkLimits(const DeviceInfo& info, BufferUse use, std::uint64_t size, std::string_view name) {
     const auto fail = [&](std::uint64_t limit) {
-        throw MachineError(fmt::format("{} ({}): {} take {} bytes; the device can bind at most {}", info.name,
-                                       info.driver, name, size, limit));
+        throw DeviceError(fmt::format("{} ({}): {} take {} bytes; the device can bind at most {}", info.name,
+                                      info.driver, name, size, limit));
     };
     if (use == BufferUse::kTexels && size / kTexelBytes > info.maxTexelBufferElements) {
         fail(info.maxTexelBufferElements * kTexelBytes);
@@ -111,7 +111,7 @@ Buffer::Buffer(const Device& device, BufferUse use, TreeUse treeUse, std::uint64
                                   Flag::eHostCached);
                 break;
         }
-        if (!type) throw MachineError(fmt::format("{}: no memory type for {}", device.info().name, name));
+        if (!type) throw DeviceError(fmt::format("{}: no memory type for {}", device.info().name, name));
         vk::MemoryAllocateInfo allocation(requirements.size, *type);
         const vk::MemoryAllocateFlagsInfo addressed(vk::MemoryAllocateFlagBits::eDeviceAddress);
         if (treeUse != TreeUse::kNone) allocation.setPNext(&addressed);
@@ -128,7 +128,7 @@ Buffer::Buffer(const Device& device, BufferUse use, TreeUse treeUse, std::uint64
                                                  VK_WHOLE_SIZE));
         }
     } catch (const vk::SystemError& e) {
-        throw failureOn(device.info(), fmt::format("allocating {} bytes for {}", size_, name), e);
+        failOn(device.info(), fmt::format("allocating {} bytes for {}", size_, name), e);
     }
 }
 
@@ -143,7 +143,7 @@ void Buffer::write(std::span<const std::byte> bytes) const {
         device_->handles().device.flushMappedMemoryRanges(
             vk::MappedMemoryRange(*handles_->memory, 0, VK_WHOLE_SIZE));
     } catch (const vk::SystemError& e) {
-        throw failureOn(device_->info(), "writing to the device's memory", e);
+        failOn(device_->info(), "writing to the device's memory", e);
     }
 }
 
@@ -193,7 +193,7 @@ void Buffer::invalidate() const {
         device_->handles().device.invalidateMappedMemoryRanges(
             vk::MappedMemoryRange(*handles_->memory, 0, VK_WHOLE_SIZE));
     } catch (const vk::SystemError& e) {
-        throw failureOn(device_->info(), "reading the device's memory", e);
+        failOn(device_->info(), "reading the device's memory", e);
     }
 }
 

@@ -27,8 +27,8 @@ enum class TreeUse : std::uint8_t { kNone, kInput, kStorage, kScratch };
 class Buffer {
   public:
     /// Creates a buffer that the host writes once, through a staging buffer if the device's memory is not
-    /// visible to the host. `name` is for error messages. Throws MachineError if the device's limits or
-    /// memory do not suffice.
+    /// visible to the host. `name` is for error messages. Throws DeviceError if the device's limits do
+    /// not suffice, MemoryError if memory does not.
     static Buffer upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                          std::string_view name, TreeUse treeUse = TreeUse::kNone);
 

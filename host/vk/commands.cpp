@@ -72,7 +72,7 @@ struct CommandSlot::Handles {
 CommandSlot::CommandSlot(const Device& device) try
     : device_(&device), handles_(std::make_unique<Handles>(device.handles())) {
 } catch (const vk::SystemError& e) {
-    throw failureOn(device.info(), "creating a command buffer", e);
+    failOn(device.info(), "creating a command buffer", e);
 }
 
 CommandSlot::~CommandSlot() {
@@ -110,7 +110,7 @@ void CommandSlot::submit(std::string_view stage, const std::function<void(const 
         device_->handles().queue.submit(submit, *handles_->fence);
         inFlight_ = true;
     } catch (const vk::SystemError& e) {
-        throw failureOn(device_->info(), stage, e);
+        failOn(device_->info(), stage, e);
     }
 }
 
@@ -126,7 +126,7 @@ double CommandSlot::wait(std::string_view stage) {
         if (status != vk::Result::eSuccess) return 0.0;
         return static_cast<double>(ticks[1] - ticks[0]) * device.timestampPeriod * 1e-9;
     } catch (const vk::SystemError& e) {
-        throw failureOn(device_->info(), stage, e);
+        failOn(device_->info(), stage, e);
     }
 }
 

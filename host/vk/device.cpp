@@ -136,7 +136,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
     try {
         return vk::raii::Device(physical, create);
     } catch (const vk::SystemError& e) {
-        throw failureOn(info, "creating a logical device", e);
+        failOn(info, "creating a logical device", e);
     }
 }
 
@@ -187,15 +187,18 @@ const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::stri
         there += fmt::format("{}{} \"{}\"", there.empty() ? "" : ", ", device.index, device.name);
         if (!device.unusable.empty()) there += fmt::format(" (lacks {})", device.unusable);
     }
-    if (selector.empty()) throw MachineError(fmt::format("no usable Vulkan device; found {}", there));
+    if (selector.empty()) throw DeviceError(fmt::format("no usable Vulkan device; found {}", there));
     throw UsageError(fmt::format("no such usable device; found {}", there));
 }
 
-MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error) {
+void failOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error) {
     const auto result = static_cast<vk::Result>(error.code().value());
-    return MachineError(fmt::format("{} failed on {} ({}): {}{}", stage, device.name, device.driver,
-                                    error.what(),
-                                    result == vk::Result::eErrorDeviceLost ? "" : addressSpaceHint()));
+    const std::string line =
+        fmt::format("{} failed on {} ({}): {}{}", stage, device.name, device.driver, error.what(),
+                    result == vk::Result::eErrorDeviceLost ? "" : addressSpaceHint());
+    if (result == vk::Result::eErrorOutOfDeviceMemory || result == vk::Result::eErrorOutOfHostMemory)
+        throw MemoryError(line);
+    throw DeviceError(line);
 }
 
 namespace {

@@ -33,9 +33,9 @@ struct DeviceInfo {
 };
 
 /// No Vulkan driver could be loaded, or none has a device.
-class NoDriverError : public MachineError {
+class NoDriverError : public DeviceError {
   public:
-    using MachineError::MachineError;
+    using DeviceError::DeviceError;
 };
 
 /// All physical devices, usable or not. Throws NoDriverError if there is no Vulkan loader or driver.

@@ -40,7 +40,8 @@ struct AccelerationStructure::Handles {
     Level top;
 };
 
-/// The exception for a failed call to a device. `stage`: what failed, for example "tracing paths".
-MachineError failureOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error);
+/// Reports a failed call to a device: throws MemoryError if memory ran out, otherwise DeviceError. `stage`:
+/// what failed, for example "tracing paths".
+[[noreturn]] void failOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error);
 
 }  // namespace duolux

@@ -103,7 +103,7 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
                                                       &info);
         pipeline = vk::raii::Pipeline(handle, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
     } catch (const vk::SystemError& e) {
-        throw failureOn(device.info(), fmt::format("creating the pipeline of kernel '{}'", name), e);
+        failOn(device.info(), fmt::format("creating the pipeline of kernel '{}'", name), e);
     }
 }
 

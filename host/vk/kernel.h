@@ -30,7 +30,7 @@ struct Specialization {
 /// A compute pipeline with its descriptor set. The bound resources must outlive it.
 class Kernel {
   public:
-    /// `name` is for error messages. Throws MachineError if the driver fails to compile it.
+    /// `name` is for error messages. Throws DeviceError if the driver fails to compile it.
     Kernel(const Device& device, std::string_view name, std::span<const std::uint32_t> spirv,
            std::span<const Binding> bindings, std::span<const Specialization> specialization,
            std::uint32_t pushConstantBytes);

@@ -45,9 +45,9 @@ void splat(inout LaneSums sums, Radiance2 light, Connection connection, uvec2 st
         if (kFilmBands == 1u || pixel / kBandPixels == band) {
             uint beyond = 0u;
             for (uint i = 0u; i < kFilmSums; i++) beyond |= filmAtomicAdd(band, index + i, quanta[i]) ? 1u << i : 0u;
-            // A sum beyond the range stays there, but must not get as far as 2^64, where it would begin again: what
-            // finds it there takes away what it has added. So a sum ends up beyond the range if and only if the exact
-            // one does, in whatever order; the host knows it by its sign.
+            // A sum of 2^63 or more is beyond the range. It must not reach 2^64 and wrap around to a valid value, so an
+            // addition to a sum that was already beyond the range is undone. In any order of the additions, the final
+            // sum is then beyond the range if and only if the exact sum is. The host sees it as a negative number.
             while (beyond != 0u) {
                 uint i = uint(findLSB(beyond));
                 beyond &= beyond - 1u;

@@ -64,7 +64,7 @@ TEST_F(Coincident, FiltersAreMetInOneOrderByBothIntegrators) {
     for (const float width : {1.0f, 0.7f}) {
         for (const bool firstTurned : {false, true}) {
             for (const bool secondTurned : {false, true}) {
-                const bool firstInFront = firstTurned == secondTurned ? !firstTurned : !firstTurned;
+                const bool firstInFront = !firstTurned;
                 const auto scene = [&](float gap) {
                     builder_ = SceneBuilder{builder_.scene};
                     builder_.scene.geometry = {};

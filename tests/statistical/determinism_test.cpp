@@ -92,7 +92,7 @@ TEST(Determinism, TheFilmOfLightPathsIsTheSameInAnyBuffers) {
         EXPECT_TRUE(sameBits(whole, filmOf(byLight(scene()), control))) << band;
     }
     control.filmBandPixels = 30;
-    EXPECT_THROW(filmOf(byLight(scene()), control), MachineError);
+    EXPECT_THROW(filmOf(byLight(scene()), control), DeviceError);
 }
 
 TEST(Determinism, LightPathsAreNumberedBeyond32Bits) {

@@ -142,7 +142,7 @@ fs::path temporaryIn(const fs::path& folder, const fs::path& path) {
     return {};
 }
 
-TEST_F(FileTest, NobodyCanForeseeATemporary) {
+TEST_F(FileTest, TemporaryNamesAreUnpredictable) {
     std::set<fs::path> names;
     const fs::path path = folder_ / "a.png";
     for (int i = 0; i < 5; ++i) {

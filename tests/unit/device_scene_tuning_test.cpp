@@ -126,8 +126,8 @@ TEST(DeviceMemory, OfAGpuMustHoldTheScene) {
     EXPECT_NO_THROW(requireDeviceMemory(device, device.memoryBytes, scene));
     try {
         requireDeviceMemory(device, device.memoryBytes + 1, scene);
-        ADD_FAILURE() << "expected MachineError";
-    } catch (const MachineError& e) {
+        ADD_FAILURE() << "expected MemoryError";
+    } catch (const MemoryError& e) {
         EXPECT_STREQ(
             e.what(),
             "big.obj: 7 triangles take 8193 MiB of device memory, but Card (driver 1) has 8192; expected "

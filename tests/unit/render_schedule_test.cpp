@@ -121,7 +121,7 @@ TEST(Schedule, WhenTimeIsUpOnlyTheFirstPassGoesOn) {
     EXPECT_TRUE(schedule.settled());
 }
 
-TEST(Schedule, GoesOnFromAnyState) {
+TEST(Schedule, ResumesFromAnyState) {
     constexpr std::uint32_t kFirst = 5, kEnd = 40;
     const auto resumed = [](const std::vector<std::uint32_t>& taken) {
         Counts counts;

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
 
+#include "host/base/random.h"
 #include "host/render/pixel_order.h"
 #include "host/scene/emitters.h"
 #include "host/scene/image_plane.h"
@@ -19,15 +17,6 @@ using shared::TraceHit;
 using shared::TraceRay;
 
 constexpr float kInfinity = 1e30f;
-
-/// Identical numbers on all platforms, which the standard's distributions do not guarantee.
-class Random {
-  public:
-    float uniform() { return std::ldexp(static_cast<float>(engine_() >> 8), -24); }
-
-  private:
-    std::mt19937 engine_{1};
-};
 
 std::vector<TraceRay> primaryRays(const Camera& camera, std::uint32_t width, std::uint32_t height) {
     const ImagePlane plane = imagePlane(camera, width, height);
@@ -53,15 +42,6 @@ Surface surfaceAt(const TraceRay& ray, const TraceHit& hit) {
     const glm::vec3 size = glm::max(glm::abs(position), glm::abs(ray.origin));
     const float error = std::max({size.x, size.y, size.z, hit.t}) * std::ldexp(64.0f, -24);
     return {position + normal * error, normal};
-}
-
-glm::vec3 cosineDirection(const glm::vec3& normal, Random& random) {
-    // A point on the unit sphere added to the normal.
-    const float z = 2.0f * random.uniform() - 1.0f;
-    const float phi = 2.0f * std::numbers::pi_v<float> * random.uniform();
-    const float r = std::sqrt(std::max(1.0f - z * z, 0.0f));
-    const glm::vec3 sum = normal + glm::vec3(r * std::cos(phi), r * std::sin(phi), z);
-    return glm::length(sum) > 1e-4f ? glm::normalize(sum) : normal;
 }
 
 /// Points on emitters, uniform in area.
@@ -112,7 +92,7 @@ std::vector<RaySet> makeRaySets(const Device& device, const Scene& scene, const 
     kernel.run();
     const std::vector<TraceHit> hits = kernel.hits();
     const Emitters emitters(scene);
-    Random random;
+    Random random(1);
     std::vector<TraceRay> diffuse, shadow;
     for (std::size_t i = 0; i < primary.size(); ++i) {
         if (hits[i].t < 0.0f) continue;

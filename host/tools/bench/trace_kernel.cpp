@@ -78,8 +78,8 @@ std::vector<shared::TraceHit> TraceKernel::hits() const {
         std::uint32_t bits = 0;
         std::memcpy(&bits, &hit.t, sizeof bits);
         if (bits != 0xffffffffu) continue;
-        throw MachineError(fmt::format("tracing rays: {} ({}) has ended the kernel's loops early",
-                                       device_->info().name, device_->info().driver));
+        throw DeviceError(fmt::format("tracing rays: {} ({}) has ended the kernel's loops early",
+                                      device_->info().name, device_->info().driver));
     }
     return out;
 }

@@ -25,7 +25,7 @@ class TraceKernel {
     /// Traces all rays `passes` times in one submission.
     BenchTimes run(std::uint32_t passes = 1);
 
-    /// The hits of the last run, one for each ray. Throws MachineError if the driver has ended loops early.
+    /// The hits of the last run, one for each ray. Throws DeviceError if the driver has ended loops early.
     std::vector<shared::TraceHit> hits() const;
     /// The counts of the last run, for a kernel that counts.
     shared::TraceCounts counts() const;

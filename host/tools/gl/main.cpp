@@ -3,18 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/app/console.h"
-#include "host/app/exit_status.h"
-#include "host/app/options.h"
-#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
+#include "host/cli/console.h"
+#include "host/cli/options.h"
+#include "host/cli/outputs.h"
+#include "host/cli/program.h"
 #include "host/film/image.h"
 #include "host/scene/hash.h"
 #include "host/tools/gl/context.h"
@@ -153,27 +152,18 @@ void run(const Arguments& arguments) {
     write.finish();
 }
 
-int fail(const std::string& line, ExitStatus status) {
-    say(fmt::format("duolux-gl: {}", line));
-    return static_cast<int>(status);
-}
-
-int parseAndRun(int argc, char** argv) {
+void parseAndRun(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{
         "Draws a scene with OpenGL's own lighting, its luminaires replaced by point lights: the reference "
         "for the\n"
         "reflectance `local`, which it draws whatever the scene's own is.",
         "duolux-gl"};
-    app.set_version_flag("--version", fmt::format("duolux-gl {} ({})", versionString(), commitString()));
-    app.get_formatter()->column_width(36);
+    setUpProgram(app);
     app.add_option("SCENE", arguments.scene, "The scene: .obj (with its .mtl), .ply or .json")->required();
-    app.add_option("-o,--output", arguments.outputs,
-                   "Image to write: .exr, .png or .pfm; may be given several times")
+    addRepeatable(app, "-o,--output", arguments.outputs,
+                  "Image to write: .exr, .png or .pfm; may be given several times")
         ->required()
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->take_all()
         ->type_name("FILE");
     app.add_option("--lights", arguments.lights,
                    "Point lights of each luminaire: 5 (centre and corners of 3x3 tiles), or ROWSxCOLUMNS")
@@ -202,15 +192,7 @@ int parseAndRun(int argc, char** argv) {
         ->type_name("STOPS");
     app.add_option("--report", arguments.report, "Write statistics as JSON to this file (-: standard output)")
         ->type_name("FILE");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        return fail(describeParseError(app, e), ExitStatus::kUsage);
-    }
-    run(arguments);
-    return 0;
+    if (parseArguments(app, {argv + 1, argv + argc})) run(arguments);
 }
 
 }  // namespace
@@ -218,12 +200,5 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace duolux
 
 int main(int argc, char** argv) {
-    using duolux::ExitStatus;
-    try {
-        return duolux::parseAndRun(argc, argv);
-    } catch (const duolux::Error& e) {
-        return duolux::fail(e.what(), statusOf(e));
-    } catch (const std::exception& e) {
-        return duolux::fail(e.what(), ExitStatus::kMachineFailed);
-    }
+    return duolux::runMain("duolux-gl", [&] { duolux::parseAndRun(argc, argv); });
 }

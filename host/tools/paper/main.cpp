@@ -2,16 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
-#include "host/app/console.h"
-#include "host/app/exit_status.h"
-#include "host/app/options.h"
-#include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/version.h"
+#include "host/cli/options.h"
+#include "host/cli/program.h"
 #include "host/tools/paper/experiment.h"
 #include "host/tools/paper/report.h"
 
@@ -19,21 +15,15 @@ namespace duolux {
 
 namespace {
 
-int fail(const std::string& line, ExitStatus status) {
-    say(fmt::format("duolux-paper: {}", line));
-    return static_cast<int>(status);
-}
-
-int parseAndRun(int argc, char** argv) {
+void parseAndRun(int argc, char** argv) {
     ExperimentSetup setup;
-    std::string folder, programs;
+    std::string folder;
     CLI::App app{
         "Repeats the paper's evaluation: `local` by transport against OpenGL, with pictures, tables and "
         "speeds, as a\n"
         "page (index.html), as tables (tables.md) and as JSON (results.json).",
         "duolux-paper"};
-    app.set_version_flag("--version", fmt::format("duolux-paper {} ({})", versionString(), commitString()));
-    app.get_formatter()->column_width(36);
+    setUpProgram(app);
     app.add_option("-o,--output", folder, "Folder for the report; made if need be")
         ->required()
         ->type_name("DIR");
@@ -50,13 +40,7 @@ int parseAndRun(int argc, char** argv) {
         ->type_name("N");
     app.add_flag("--quick", setup.quick,
                  "Few samples, few lights, small scenes for speed: to see that all works");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        return fail(describeParseError(app, e), ExitStatus::kUsage);
-    }
+    if (!parseArguments(app, {argv + 1, argv + argc})) return;
     setup.folder = folder;
     if (setup.quick) {
         setup.spp = {4, 16};
@@ -70,7 +54,6 @@ int parseAndRun(int argc, char** argv) {
     writeFile(setup.folder / "index.html", htmlReport(setup, experiment));
     fmt::print("{}", markdownTables(setup, experiment));
     fmt::print("The report: {}\n", (setup.folder / "index.html").string());
-    return 0;
 }
 
 }  // namespace
@@ -78,11 +61,5 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace duolux
 
 int main(int argc, char** argv) {
-    try {
-        return duolux::parseAndRun(argc, argv);
-    } catch (const duolux::Error& e) {
-        return duolux::fail(e.what(), statusOf(e));
-    } catch (const std::exception& e) {
-        return duolux::fail(e.what(), duolux::ExitStatus::kMachineFailed);
-    }
+    return duolux::runMain("duolux-paper", [&] { duolux::parseAndRun(argc, argv); });
 }

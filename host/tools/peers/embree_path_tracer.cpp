@@ -7,6 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/base/random.h"
 #include "host/render/pixel_order.h"
 #include "host/scene/emitters.h"
 #include "host/scene/image_plane.h"
@@ -21,47 +22,8 @@ using glm::vec3;
 constexpr float kPi = 3.14159265358979f;
 constexpr float kInfinity = 1e30f;
 
-/// PCG32: O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random
-/// Number Generation", 2014.
-class Random {
-  public:
-    explicit Random(std::uint64_t stream) : increment_(2 * stream + 1) {
-        bits();
-        state_ += 0x853c49e6748fea9bull;
-        bits();
-    }
-    std::uint32_t bits() {
-        const std::uint64_t old = state_;
-        state_ = old * 6364136223846793005ull + increment_;
-        const auto shifted = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
-        const auto turn = static_cast<std::uint32_t>(old >> 59);
-        return shifted >> turn | shifted << (-turn & 31u);
-    }
-    float uniform() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
-
-  private:
-    std::uint64_t state_ = 0, increment_;
-};
-
 float largest(const vec3& v) {
     return std::max({v.x, v.y, v.z});
-}
-
-/// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-vec3 fromFrame(const vec3& n, const vec3& local) {
-    const float s = std::copysign(1.0f, n.z);
-    const float a = -1.0f / (s + n.z);
-    const float b = n.x * n.y * a;
-    const vec3 tangent(1.0f + s * n.x * n.x * a, s * b, -s * n.x);
-    const vec3 bitangent(b, s + n.y * n.y * a, -n.y);
-    return tangent * local.x + bitangent * local.y + n * local.z;
-}
-
-vec3 cosineHemisphere(Random& random) {
-    const float u = random.uniform();
-    const float phi = 2.0f * kPi * random.uniform();
-    const float r = std::sqrt(u);
-    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0f - u)};
 }
 
 float balance(float a, float b) {
@@ -85,7 +47,7 @@ class PathTracer {
 
     vec3 pixel(std::uint32_t pixel) const {
         vec3 sum(0.0f);
-        Random random((std::uint64_t{settings_.seed} << 32) + pixel);
+        Random random((std::uint64_t{pixel} << 32) + settings_.seed);
         for (std::uint32_t s = 0; s < settings_.spp; ++s)
             sum += sample(pixel, random);
         return sum / static_cast<float>(settings_.spp);
@@ -137,10 +99,9 @@ class PathTracer {
                 scatterings >= 2 && weight < 1.0f ? std::min(std::sqrt(weight), 0.95f) : 1.0f;
             if (random.uniform() >= survival) return radiance;
             throughput /= survival;
-            const vec3 local = cosineHemisphere(random);
             origin = position;
-            direction = glm::normalize(fromFrame(normal, local));
-            pdf = local.z / kPi;
+            direction = cosineDirection(normal, random);
+            pdf = glm::dot(normal, direction) / kPi;
         }
     }
 

@@ -30,7 +30,7 @@ RTCRay makeRay(const glm::vec3& origin, const glm::vec3& direction, float tMax) 
 template <typename T>
 void setBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::span<const T> items) {
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), items.size());
-    if (buffer == nullptr) throw MachineError("Embree: out of memory");
+    if (buffer == nullptr) throw MemoryError("Embree: out of memory");
     std::memcpy(buffer, items.data(), items.size_bytes());
 }
 

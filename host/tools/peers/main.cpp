@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -12,13 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "host/app/console.h"
-#include "host/app/exit_status.h"
-#include "host/app/options.h"
-#include "host/app/outputs.h"
 #include "host/base/error.h"
 #include "host/base/temporary_folder.h"
 #include "host/bvh/wide_bvh.h"
+#include "host/cli/options.h"
+#include "host/cli/outputs.h"
+#include "host/cli/program.h"
 #include "host/render/render.h"
 #include "host/scene/emitters.h"
 #include "host/tools/bench/bench_report.h"
@@ -182,19 +180,17 @@ void run(const PeerOptions& options) {
     }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+void parseAndRun(int argc, char** argv) {
     CLI::App app(
-        "Duolux and Embree (single rays) in turns: the same rays, the same path tracer, on the same cores.");
+        "Duolux and Embree (single rays) in turns: the same rays, the same path tracer, on the same cores.",
+        "duolux-peers");
+    setUpProgram(app);
     PeerOptions options;
     app.add_option("SCENE", options.scenes,
                    fmt::format("Scene files, or {}", fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
-    app.add_option("--only", options.only, "Only benchmarks whose names contain this text; may be repeated")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->take_all();
+    addRepeatable(app, "--only", options.only,
+                  "Only benchmarks whose names contain this text; may be repeated");
     app.add_option("--device", options.device, "Duolux's device")->capture_default_str();
     app.add_option("--repeat", options.repeat, "Runs that count")
         ->capture_default_str()
@@ -209,20 +205,11 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(wholeNumber(0, 65535));
     app.add_option("--json", options.json, "File for all results");
-    try {
-        app.parse(argc, argv);
-        run(options);
-        return 0;
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        say(fmt::format("duolux-peers: {}", describeParseError(app, e)));
-        return static_cast<int>(ExitStatus::kUsage);
-    } catch (const Error& e) {
-        say(fmt::format("duolux-peers: {}", e.what()));
-        return static_cast<int>(statusOf(e));
-    } catch (const std::exception& e) {
-        say(fmt::format("duolux-peers: {}", e.what()));
-        return static_cast<int>(ExitStatus::kMachineFailed);
-    }
+    if (parseArguments(app, {argv + 1, argv + argc})) run(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runMain("duolux-peers", [&] { parseAndRun(argc, argv); });
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "host/app/progress.h"
+#include "host/cli/progress.h"
 
 namespace duolux {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/app/exit_status.h"
+#include "host/cli/exit_status.h"
 
 namespace duolux {
 

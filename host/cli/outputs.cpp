@@ -1,4 +1,4 @@
-#include "host/app/outputs.h"
+#include "host/cli/outputs.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,10 +9,10 @@
 #include <optional>
 #include <system_error>
 
-#include "host/app/console.h"
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/memory.h"
+#include "host/cli/console.h"
 #include "host/film/image.h"
 
 namespace duolux {

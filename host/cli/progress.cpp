@@ -1,4 +1,4 @@
-#include "host/app/progress.h"
+#include "host/cli/progress.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/app/exit_status.h"
+#include "host/cli/exit_status.h"
 #include "host/vk/device_info.h"
 
 namespace duolux {
@@ -10,6 +10,8 @@ TEST(ExitStatus, FollowsFromTheError) {
     EXPECT_EQ(statusOf(InputError("f", "", "p", "")), ExitStatus::kBadInput);
     EXPECT_EQ(statusOf(UsageError("u")), ExitStatus::kUsage);
     EXPECT_EQ(statusOf(MachineError("m")), ExitStatus::kMachineFailed);
+    EXPECT_EQ(statusOf(DeviceError("d")), ExitStatus::kMachineFailed);
+    EXPECT_EQ(statusOf(MemoryError("m")), ExitStatus::kMachineFailed);
     EXPECT_EQ(statusOf(NoDriverError("n")), ExitStatus::kMachineFailed);
     EXPECT_EQ(statusOf(Stopped(ExitStatus::kTerminated, "t")), ExitStatus::kTerminated);
 }

@@ -1,4 +1,4 @@
-#include "host/app/console.h"
+#include "host/cli/console.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,0 +1,23 @@
+# Runs at installation: installs host/duolux.h and the project's headers that it includes, directly or through others. All
+# other headers are internal.
+# SOURCE: the root of the project. DESTINATION: the folder for headers.
+cmake_policy(VERSION 3.25)
+set(headers host/duolux.h)
+set(unread ${headers})
+while(unread)
+  list(POP_FRONT unread header)
+  file(STRINGS ${SOURCE}/${header} lines REGEX "^#include \"")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" included "${line}")
+    if(NOT included IN_LIST headers)
+      list(APPEND headers ${included})
+      list(APPEND unread ${included})
+    endif()
+  endforeach()
+endwhile()
+list(REMOVE_ITEM headers host/duolux.h)
+file(INSTALL DESTINATION ${DESTINATION} TYPE FILE FILES ${SOURCE}/host/duolux.h)
+foreach(header ${headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  file(INSTALL DESTINATION ${DESTINATION}/${folder} TYPE FILE FILES ${SOURCE}/${header})
+endforeach()
