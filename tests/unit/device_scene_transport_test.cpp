@@ -21,10 +21,10 @@ TransportTraits traitsOf(std::string_view preset) {
 }
 
 TEST(Transport, Presets) {
-    EXPECT_EQ(traitsOf("global").transmittance, shared::kTransparencyZero);
-    EXPECT_EQ(traitsOf("one-bounce").transmittance, shared::kTransparencyZero);
-    EXPECT_EQ(traitsOf("local").transmittance, shared::kTransparencyIdentity);
-    EXPECT_EQ(traitsOf("shadowless").transmittance, shared::kTransparencyIdentity);
+    EXPECT_EQ(traitsOf("global").transparency, shared::kTransparencyZero);
+    EXPECT_EQ(traitsOf("one-bounce").transparency, shared::kTransparencyZero);
+    EXPECT_EQ(traitsOf("local").transparency, shared::kTransparencyIdentity);
+    EXPECT_EQ(traitsOf("shadowless").transparency, shared::kTransparencyIdentity);
     EXPECT_EQ(traitsOf("local").mostScatterings, 1u);
     EXPECT_EQ(traitsOf("one-bounce").mostScatterings, 1u);
     EXPECT_EQ(traitsOf("global").mostScatterings, TransportTraits::kUnlimited);
@@ -40,7 +40,7 @@ TEST(Transport, Presets) {
 }
 
 TEST(Transport, PartialTransmissionIsGeneral) {
-    EXPECT_EQ(analyseTransport(sceneWith(blendReflectance(0.5f, 1.0f))).transmittance,
+    EXPECT_EQ(analyseTransport(sceneWith(blendReflectance(0.5f, 1.0f))).transparency,
               shared::kTransparencyGeneral);
 }
 
@@ -50,7 +50,7 @@ TEST(Transport, LightOnItsWayToTheCameraHasBothComponents) {
     // Invisible light that a crossing makes visible is lost on surfaces, but reaches the camera.
     Reflectance glowing = *presetReflectance("local");
     glowing.transparent.m10 = {0.0f, 0.0f, 0.5f};
-    EXPECT_EQ(analyseTransport(sceneWith(glowing)).transmittance, shared::kTransparencyIdentity);
+    EXPECT_EQ(analyseTransport(sceneWith(glowing)).transparency, shared::kTransparencyIdentity);
     EXPECT_EQ(analyseTransport(sceneWith(glowing)).cameraTransparency, shared::kTransparencyGeneral);
 }
 
@@ -90,7 +90,7 @@ TEST(Transport, SecondColumn) {
     EXPECT_TRUE(analyseTransport(sceneWith(reflectance)).secondColumn);
     // Then the identity on the invisible component alone is not enough.
     reflectance.transparent.m00 = glm::vec3(1.0f);
-    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transmittance, shared::kTransparencyGeneral);
+    EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transparency, shared::kTransparencyGeneral);
 }
 
 /// Importance that alternates between the components: with 01 and 10 the series is infinite, with 10 alone it
