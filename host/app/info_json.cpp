@@ -6,8 +6,11 @@
 #include <array>
 #include <cstdlib>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "host/scene/energy.h"
+#include "host/scene/fields.h"
 #include "host/scene/hash.h"
 
 namespace duolux {
@@ -81,16 +84,16 @@ glm::dvec3 placeInFile(const Scene& scene, const glm::vec3& place) {
 }
 
 Json cameraOf(const Scene& scene) {
-    const Camera& camera = scene.camera;
-    Json json = {{"position", placeJson(scene, camera.position)},
-                 {"target", placeJson(scene, camera.target)},
-                 {"up", toJson(camera.up)}};
-    if (camera.type == CameraType::kOrthographic) {
-        json["type"] = nameOf(camera.type);
-        json["height"] = number(camera.height);
-    } else {
-        json["vfov"] = number(camera.vfov);
-    }
+    Json json;
+    forEachField(scene.camera, [&]<typename T>(const char* name, const T& field) {
+        if constexpr (std::is_same_v<T, CameraType>) {
+            if (field != Camera().type) json[name] = nameOf(field);
+        } else if constexpr (std::is_same_v<T, glm::vec3>) {
+            json[name] = &field == &scene.camera.up ? toJson(field) : placeJson(scene, field);
+        } else {
+            json[name] = toJson(field);
+        }
+    });
     return json;
 }
 
@@ -120,9 +123,11 @@ std::string onOneLine(const Json& json) {
 }
 
 std::size_t memoryOf(const Geometry& geometry) {
-    return geometry.positions.size() * sizeof(glm::vec3) + geometry.triangles.size() * sizeof(glm::uvec3) +
-           geometry.materials.size() * sizeof(std::uint32_t) + geometry.normals.size() * sizeof(glm::vec3) +
-           geometry.normalIndices.size() * sizeof(glm::uvec3) + geometry.colours.size() * sizeof(glm::vec3);
+    std::size_t bytes = 0;
+    forEachField(geometry, [&]<typename T>(const auto&, const std::vector<T>& items) {
+        bytes += items.size() * sizeof(T);
+    });
+    return bytes;
 }
 
 std::size_t smoothTriangles(const Geometry& geometry) {

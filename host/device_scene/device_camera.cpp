@@ -13,7 +13,13 @@ shared::DeviceCamera deviceCamera(const Camera& camera, std::uint32_t width, std
 }
 
 std::uint32_t deviceKind(CameraType type) {
-    return type == CameraType::kOrthographic ? shared::kCameraOrthographic : shared::kCameraPerspective;
+    switch (type) {
+        case CameraType::kPerspective:
+            return shared::kCameraPerspective;
+        case CameraType::kOrthographic:
+            return shared::kCameraOrthographic;
+    }
+    return shared::kCameraPerspective;
 }
 
 }  // namespace duolux

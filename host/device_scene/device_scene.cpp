@@ -144,7 +144,7 @@ bool needsEmitterTree(const TransportTraits& traits, std::span<const std::uint32
     return traits.transparency == shared::kTransparencyIdentity && !emitters.empty();
 }
 
-EmitterTable emitterTableOf(const Scene& scene, std::span<const std::uint32_t> emitters,
+EmitterTable emitterTableOf(const Scene& scene, std::span<const SceneEmitter> emitters,
                             const TransportTraits& traits, Integrator integrator) {
     return buildEmitterTable(scene, emitters, traits.secondColumn || integrator == Integrator::kLightTracer);
 }
@@ -241,7 +241,8 @@ DeviceScene assemble(const Device& device, const Scene& scene, Integrator integr
     const bool rayQueries = tuning.layout == Layout::kRayQuery;
 
     auto start = std::chrono::steady_clock::now();
-    std::vector<std::uint32_t> emitters = emittingTriangles(scene);
+    const std::vector<SceneEmitter> allEmitters = listEmitters(scene);
+    std::vector<std::uint32_t> emitters = emittingTriangles(allEmitters);
     const bool emitterTree = needsEmitterTree(traits, emitters);
     const std::span<const std::uint32_t> inTree =
         emitterTree ? std::span<const std::uint32_t>(emitters) : std::span<const std::uint32_t>();
@@ -273,7 +274,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, Integrator integr
             normals[2 * i + 1] = deviceNormals(geometry, pair.second, corners.turns[1]);
         }
     });
-    EmitterTable table = emitterTableOf(scene, emitters, traits, integrator);
+    EmitterTable table = emitterTableOf(scene, allEmitters, traits, integrator);
     if (surfaces.used()) {
         const std::vector<std::uint32_t> places = deviceTriangles(trees, geometry.triangles.size());
         for (std::size_t i = 0; i < emitters.size(); ++i) {
@@ -298,6 +299,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, Integrator integr
         .hasVertexColours = !colours.empty(),
         .hasPlanes = surfaces.used(),
         .closedFormApplies = hasClosedForm(traits, !normals.empty(), table.choices),
+        .emitterKinds = emitterKinds(allEmitters),
         .emitterChoices = table.choices,
         .emitterRoot = trees.emitterRoot,
         .emitterBounds = widenedBounds(geometry, emitters),
@@ -339,7 +341,8 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, Integrator int
 void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene,
                       Integrator integrator) {
     const TransportTraits traits = analyseTransport(scene);
-    std::vector<std::uint32_t> emitters = emittingTriangles(scene);
+    const std::vector<SceneEmitter> allEmitters = listEmitters(scene);
+    const std::vector<std::uint32_t> emitters = emittingTriangles(allEmitters);
     // Emitters are in a tree of their own, and first among surfaces that coincide.
     const bool sameTriangles = (deviceScene.emitterRoot != 0) == needsEmitterTree(traits, emitters) &&
                                emitters == deviceScene.emitters && !deviceScene.hasPlanes;
@@ -349,9 +352,10 @@ void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scen
         return;
     }
     const auto start = std::chrono::steady_clock::now();
-    const EmitterTable table = emitterTableOf(scene, emitters, traits, integrator);
+    const EmitterTable table = emitterTableOf(scene, allEmitters, traits, integrator);
     deviceScene.traits = traits;
     deviceScene.closedFormApplies = hasClosedForm(traits, deviceScene.hasSmoothNormals, table.choices);
+    deviceScene.emitterKinds = emitterKinds(allEmitters);
     deviceScene.emitterChoices = table.choices;
     deviceScene.brightestEmission = brightestEmission(scene);
     deviceScene.materials = Buffer::upload<shared::DeviceMaterial>(device, BufferUse::kTexels,

@@ -29,6 +29,7 @@ struct DeviceScene {
     /// Direct light has a closed form: nothing can block an emitter, surfaces are diffuse and flat, and there
     /// are so few emitters that evaluating the formula for each costs no more than sampling one.
     bool closedFormApplies = false;
+    std::uint32_t emitterKinds = 0;    ///< sum of shared::kEmitterKind...
     std::uint32_t emitterChoices = 0;  ///< as in EmitterTable
     std::uint32_t emitterRoot = 0;     ///< as in shared::PathParams
     Bounds emitterBounds{};            ///< of the emitters, enlarged by more than the rounding error of a hit

@@ -3,32 +3,41 @@
 #include <algorithm>
 #include <numeric>
 
+#include "shaders/shared/rounding.h"
+
 namespace duolux {
 
 namespace {
 
-constexpr float kPointError = 32.0f / 16777216.0f;  // as pointError() of shaders/lib/intersect.glsl
-
+/// As pointError() of shaders/lib/intersect.glsl.
 float pointErrorOf(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
-    return std::max({largest.x, largest.y, largest.z}) * kPointError;
+    return std::max({largest.x, largest.y, largest.z}) * shared::kPointError;
 }
 
-/// Emission per unit area, summed over both sides, in an arbitrary unit of power.
+/// Emission summed over channels and sides.
 double brightness(const Emission& emission, bool bothComponents) {
     const glm::dvec3 e =
         glm::dvec3(emission.invisible) + (bothComponents ? glm::dvec3(emission.visible) : glm::dvec3(0.0));
     return (e.x + e.y + e.z) * (emission.sides == Sides::kBoth ? 2.0 : 1.0);
 }
 
-double areaOf(const Geometry& geometry, std::uint32_t triangle) {
-    const glm::uvec3 index = geometry.triangles[triangle];
-    const glm::dvec3 a(geometry.positions[index.x]);
-    return 0.5 * glm::length(glm::cross(glm::dvec3(geometry.positions[index.y]) - a,
-                                        glm::dvec3(geometry.positions[index.z]) - a));
-}
-
 }  // namespace
+
+std::uint32_t emitterKinds(std::span<const SceneEmitter> emitters) {
+    std::uint32_t kinds = 0;
+    for (const SceneEmitter& emitter : emitters) {
+        switch (emitter.kind) {
+            case EmitterKind::kTriangle:
+                kinds |= shared::kEmitterKindTriangle;
+                break;
+            case EmitterKind::kPoint:
+                kinds |= shared::kEmitterKindPoint;
+                break;
+        }
+    }
+    return kinds;
+}
 
 std::uint32_t TriangleRanks::rankOf(std::uint32_t triangle) const {
     const auto next = std::ranges::lower_bound(emitters_, triangle);
@@ -69,46 +78,45 @@ std::vector<AliasEntry> buildAliasTable(std::span<const double> weights) {
     return table;
 }
 
-EmitterTable buildEmitterTable(const Scene& scene, std::span<const std::uint32_t> emitters,
+EmitterTable buildEmitterTable(const Scene& scene, std::span<const SceneEmitter> emitters,
                                bool bothComponents) {
     const Geometry& geometry = scene.geometry;
     EmitterTable table;
-    std::vector<double> weights;
-    for (const std::uint32_t i : emitters) {
-        const glm::uvec3 index = geometry.triangles[i];
-        const Emission& emission = scene.materials[geometry.materials[i]].emission;
+    std::vector<double> weights, densities;  // powers over pi; the densities times the sum of the powers
+    for (const SceneEmitter& emitter : emitters) {
         shared::DeviceEmitter record{};
-        record.v0 = geometry.positions[index.x];
-        record.v1 = geometry.positions[index.y];
-        record.v2 = geometry.positions[index.z];
-        record.flags = shared::kEmitterKindTriangle | shared::kEmitterFront |
-                       (emission.sides == Sides::kBoth ? shared::kEmitterBack : 0u);
-        record.positionError = pointErrorOf(record.v0, record.v1, record.v2);
-        record.invisible = emission.invisible;
-        record.visible = emission.visible;
+        record.invisible = emitter.emission.invisible;
+        record.visible = emitter.emission.visible;
+        const double bright = brightness(emitter.emission, bothComponents);
+        switch (emitter.kind) {
+            case EmitterKind::kTriangle: {
+                const glm::uvec3 index = geometry.triangles[emitter.index];
+                record.v0 = geometry.positions[index.x];
+                record.v1 = geometry.positions[index.y];
+                record.v2 = geometry.positions[index.z];
+                record.flags = shared::kEmitterKindTriangle | shared::kEmitterFront |
+                               (emitter.emission.sides == Sides::kBoth ? shared::kEmitterBack : 0u);
+                record.positionError = pointErrorOf(record.v0, record.v1, record.v2);
+                weights.push_back(emitter.area * bright);
+                densities.push_back(bright);  // per unit area
+                break;
+            }
+            case EmitterKind::kPoint:
+                record.v0 = scene.pointEmitters[emitter.index].position;
+                record.flags = shared::kEmitterKindPoint;
+                // The power is 4 pi times the intensity; that of a triangle pi times radiance and area.
+                weights.push_back(4.0 * bright);
+                densities.push_back(weights.back());
+                break;
+        }
         table.records.push_back(record);
-        weights.push_back(areaOf(geometry, i) * brightness(emission, bothComponents));
-    }
-    for (const PointEmitter& point : scene.pointEmitters) {
-        shared::DeviceEmitter record{};
-        record.v0 = point.position;
-        record.flags = shared::kEmitterKindPoint;
-        record.invisible = point.invisible;
-        record.visible = point.visible;
-        table.records.push_back(record);
-        // The power is 4 pi times the intensity; that of a triangle pi times radiance and area.
-        weights.push_back(4.0 * brightness({point.invisible, point.visible, Sides::kFront}, bothComponents));
     }
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (!(total > 0.0)) return table;
     const std::vector<AliasEntry> aliases = buildAliasTable(weights);
     for (std::size_t i = 0; i < table.records.size(); ++i) {
         shared::DeviceEmitter& record = table.records[i];
-        const bool isPoint = i >= emitters.size();
-        const double bright =
-            isPoint ? weights[i]
-                    : brightness(scene.materials[geometry.materials[emitters[i]]].emission, bothComponents);
-        record.density = static_cast<float>(bright / total);
+        record.density = static_cast<float>(densities[i] / total);
         record.threshold = aliases[i].threshold;
         record.alias = aliases[i].alias;
     }

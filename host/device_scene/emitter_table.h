@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "host/scene/emitters.h"
 #include "host/scene/scene.h"
 #include "shaders/shared/emitter_layout.h"
 
@@ -29,11 +30,14 @@ struct EmitterTable {
     std::uint32_t choices = 0;
 };
 
-/// Triangles first, then point emitters. `emitters`: the triangles that emit, ascending. `bothComponents`:
-/// whether the power of both components counts, because visible emission reaches surfaces or the light tracer
-/// carries it to the camera. Otherwise only the invisible component counts.
-EmitterTable buildEmitterTable(const Scene& scene, std::span<const std::uint32_t> emitters,
+/// `emitters`: listEmitters(scene); the records are in this order. `bothComponents`: whether the power of
+/// both components counts, because visible emission reaches surfaces or the light tracer carries it to the
+/// camera. Otherwise only the invisible component counts.
+EmitterTable buildEmitterTable(const Scene& scene, std::span<const SceneEmitter> emitters,
                                bool bothComponents);
+
+/// The sum of the shared::kEmitterKind... of emitters, for the specialisation of kernels.
+std::uint32_t emitterKinds(std::span<const SceneEmitter> emitters);
 
 /// Alias table (Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", 1991) for
 /// weights that are >= 0 and not all 0.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/scene/emitters.h"
+
 namespace duolux {
 
 namespace {
@@ -90,20 +92,20 @@ TransportTraits analyseTransport(const Scene& scene) {
 }
 
 double brightestEmission(const Scene& scene) {
-    const std::vector<bool> used = usedMaterials(scene);
-    double brightest = 0.0;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (!used[i]) continue;
-        const Emission& emission = scene.materials[i].emission;
-        const glm::dvec3 e = glm::max(emission.invisible, emission.visible);
-        brightest = std::max({brightest, e.x, e.y, e.z});
-    }
-    if (scene.pointEmitters.empty()) return brightest;
     const Bounds bounds = boundsOf(scene.geometry);
     const glm::dvec3 extent = glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower);
-    for (const PointEmitter& point : scene.pointEmitters) {
-        const glm::dvec3 e = glm::max(point.invisible, point.visible);
-        brightest = std::max(brightest, std::max({e.x, e.y, e.z}) / glm::dot(extent, extent));
+    double brightest = 0.0;
+    for (const SceneEmitter& emitter : listEmitters(scene)) {
+        const glm::dvec3 e = glm::max(emitter.emission.invisible, emitter.emission.visible);
+        const double largest = std::max({e.x, e.y, e.z});
+        switch (emitter.kind) {
+            case EmitterKind::kTriangle:
+                brightest = std::max(brightest, largest);
+                break;
+            case EmitterKind::kPoint:
+                brightest = std::max(brightest, largest / glm::dot(extent, extent));
+                break;
+        }
     }
     return brightest;
 }

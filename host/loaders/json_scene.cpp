@@ -63,8 +63,9 @@ CameraChoice readCamera(const JsonNode& node) {
     node.expectKeys({"type", "position", "target", "up", "vfov", "height"});
     CameraChoice camera;
     if (const auto type = node.find("type")) {
-        static const std::array<std::string, 2> kNames{"perspective", "orthographic"};
-        camera.type = type->choice(kNames) == 0 ? CameraType::kPerspective : CameraType::kOrthographic;
+        static constexpr std::array kTypes{CameraType::kPerspective, CameraType::kOrthographic};
+        static const std::array<std::string, 2> kNames{nameOf(kTypes[0]), nameOf(kTypes[1])};
+        camera.type = kTypes[type->choice(kNames)];
     }
     if (const auto position = node.find("position")) camera.position = readPlace(*position);
     if (const auto target = node.find("target")) camera.target = readPlace(*target);

@@ -79,8 +79,7 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
             {shared::kSpecVisibleCrosses, traits.visibleCrosses},
             {shared::kSpecOneReflectance, traits.oneReflectance},
             {shared::kSpecLobes, traits.lobes},
-            {shared::kSpecEmitterKinds, (deviceScene.emitters.empty() ? 0u : shared::kEmitterKindTriangle) |
-                                            (scene.pointEmitters.empty() ? 0u : shared::kEmitterKindPoint)},
+            {shared::kSpecEmitterKinds, deviceScene.emitterKinds},
             {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecVertexColours, deviceScene.hasVertexColours},

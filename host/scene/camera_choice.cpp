@@ -6,14 +6,15 @@ std::optional<CameraChoice::Contradiction> CameraChoice::contradiction() const {
     constexpr double kSmallestSine = 1e-4;
     const char* const across = "expected a vector that is not parallel to the view direction";
     if (up && *up == glm::dvec3(0.0)) return Contradiction{"up has no direction", across};
-    const bool orthographic = type == CameraType::kOrthographic;
-    if (height && !orthographic) {
-        return Contradiction{"a perspective camera has no height",
-                             "expected \"vfov\", or \"type\": \"orthographic\""};
-    }
-    if (vfov && orthographic) {
-        return Contradiction{"an orthographic camera has no angle of view",
-                             "expected \"height\", the height of the image in scene units"};
+    switch (type.value_or(CameraType::kPerspective)) {
+        case CameraType::kPerspective:
+            if (!height) break;
+            return Contradiction{"a perspective camera has no height",
+                                 "expected \"vfov\", or \"type\": \"orthographic\""};
+        case CameraType::kOrthographic:
+            if (!vfov) break;
+            return Contradiction{"an orthographic camera has no angle of view",
+                                 "expected \"height\", the height of the image in scene units"};
     }
     if (!position || !target) return std::nullopt;
     const glm::dvec3 view = *target - *position;

@@ -7,39 +7,44 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/scene/fields.h"
 
 namespace duolux {
 
 namespace {
+
+/// The items of an array that is appended to others; its indices are of items that `first` others precede.
+template <typename Item>
+void shift(std::vector<Item>& items, const GeometryField<Item>& field, std::uint32_t first) {
+    if constexpr (std::is_same_v<Item, glm::uvec3>) {
+        for (glm::uvec3& item : items) {
+            if (!field.absent || item.x != field.absent->x) item += first;
+        }
+    }
+}
 
 void appendGeometry(Geometry& to, Geometry from) {
     if (to.triangles.empty()) {
         to = std::move(from);
         return;
     }
-    const auto firstPosition = static_cast<std::uint32_t>(to.positions.size());
-    const auto firstNormal = static_cast<std::uint32_t>(to.normals.size());
-    if (!to.normals.empty() || !from.normals.empty()) {
-        to.normalIndices.resize(to.triangles.size(), glm::uvec3(Geometry::kNoNormal));
-        from.normalIndices.resize(from.triangles.size(), glm::uvec3(Geometry::kNoNormal));
-    }
-    if (!to.colours.empty() || !from.colours.empty()) {
-        to.colours.resize(to.positions.size(), glm::vec3(1.0f));
-        from.colours.resize(from.positions.size(), glm::vec3(1.0f));
-        to.colours.insert(to.colours.end(), from.colours.begin(), from.colours.end());
-    }
-    to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
-    to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
-    to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
-    for (const glm::uvec3& triangle : from.triangles)
-        to.triangles.push_back(triangle + firstPosition);
-    for (const glm::uvec3& indices : from.normalIndices) {
-        to.normalIndices.push_back(indices.x == Geometry::kNoNormal ? indices : indices + firstNormal);
-    }
+    const GeometryCounts present(to), added(from);
+    forEachGeometryField([&](const auto& field) {
+        auto& items = to.*field.array;
+        auto& others = from.*field.array;
+        if (field.absent) {
+            if (items.empty() && others.empty()) return;
+            items.resize(present.of(field.per), *field.absent);
+            others.resize(added.of(field.per), *field.absent);
+        }
+        if (field.indexes) shift(others, field, static_cast<std::uint32_t>(present.of(*field.indexes)));
+        items.insert(items.end(), others.begin(), others.end());
+    });
 }
 
 }  // namespace
@@ -69,11 +74,13 @@ bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* 
         normal = length > 0.0 ? glm::vec3(world / length) : glm::vec3(0.0f);
     }
     if (glm::determinant(linear) < 0.0) {
-        for (glm::uvec3& triangle : geometry.triangles)
-            std::swap(triangle.y, triangle.z);
-        for (glm::uvec3& indices : geometry.normalIndices) {
-            if (indices.x != Geometry::kNoNormal) std::swap(indices.y, indices.z);
-        }
+        forEachField(geometry, []<typename Item>(const GeometryField<Item>& field, std::vector<Item>& items) {
+            if constexpr (std::is_same_v<Item, glm::uvec3>) {
+                if (!field.indexes) return;
+                for (glm::uvec3& indices : items)
+                    std::swap(indices.y, indices.z);
+            }
+        });
     }
     return inRange;
 }
@@ -178,15 +185,15 @@ std::size_t dropDegenerateTriangles(Geometry& geometry) {
             std::max({glm::dot(edge1, edge1), glm::dot(edge2, edge2), glm::dot(edge3, edge3)});
         const double area = glm::length(glm::cross(edge1, edge2));
         if (area <= std::max(kThinnest * longest, kSmallestArea)) continue;
-        geometry.triangles[kept] = triangle;
-        geometry.materials[kept] = geometry.materials[i];
-        if (!geometry.normalIndices.empty()) geometry.normalIndices[kept] = geometry.normalIndices[i];
+        forEachField(geometry, [&](const auto& field, auto& items) {
+            if (field.per == Per::kTriangle && !items.empty()) items[kept] = items[i];
+        });
         ++kept;
     }
     const std::size_t dropped = geometry.triangles.size() - kept;
-    geometry.triangles.resize(kept);
-    geometry.materials.resize(kept);
-    if (!geometry.normalIndices.empty()) geometry.normalIndices.resize(kept);
+    forEachField(geometry, [&](const auto& field, auto& items) {
+        if (field.per == Per::kTriangle && !items.empty()) items.resize(kept);
+    });
     return dropped;
 }
 

@@ -17,13 +17,6 @@ float spectralRadius(float m00, float m01, float m10, float m11) {
     return 0.5f * (m00 + m11 + std::sqrt(difference * difference + 4.0f * m01 * m10));
 }
 
-double areaOf(const Geometry& geometry, const glm::uvec3& triangle) {
-    const glm::dvec3 a(geometry.positions[triangle.x]);
-    const glm::dvec3 b(geometry.positions[triangle.y]);
-    const glm::dvec3 c(geometry.positions[triangle.z]);
-    return 0.5 * glm::length(glm::cross(b - a, c - a));
-}
-
 }  // namespace
 
 bool MaterialEnergy::mayGrow() const {
@@ -51,20 +44,22 @@ MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& a
 
 EmitterSummary summariseEmitters(const Scene& scene) {
     EmitterSummary summary;
-    const Geometry& geometry = scene.geometry;
-    for (const std::uint32_t i : emittingTriangles(scene)) {
-        const Emission& emission = scene.materials[geometry.materials[i]].emission;
-        const double area = areaOf(geometry, geometry.triangles[i]);
-        const double sides = emission.sides == Sides::kBoth ? 2.0 : 1.0;
-        ++summary.triangles;
-        summary.area += area;
-        summary.invisiblePower += sides * glm::pi<double>() * area * glm::dvec3(emission.invisible);
-        summary.visiblePower += sides * glm::pi<double>() * area * glm::dvec3(emission.visible);
-    }
-    for (const PointEmitter& point : scene.pointEmitters) {
-        ++summary.points;
-        summary.invisiblePower += 4.0 * glm::pi<double>() * glm::dvec3(point.invisible);
-        summary.visiblePower += 4.0 * glm::pi<double>() * glm::dvec3(point.visible);
+    for (const SceneEmitter& emitter : listEmitters(scene)) {
+        const Emission& emission = emitter.emission;
+        double factor = 0.0;  // of the power over the emission
+        switch (emitter.kind) {
+            case EmitterKind::kTriangle:
+                ++summary.triangles;
+                summary.area += emitter.area;
+                factor = (emission.sides == Sides::kBoth ? 2.0 : 1.0) * glm::pi<double>() * emitter.area;
+                break;
+            case EmitterKind::kPoint:
+                ++summary.points;
+                factor = 4.0 * glm::pi<double>();
+                break;
+        }
+        summary.invisiblePower += factor * glm::dvec3(emission.invisible);
+        summary.visiblePower += factor * glm::dvec3(emission.visible);
     }
     return summary;
 }
@@ -101,7 +96,7 @@ glm::dvec3 meanAlbedo(const Scene& scene) {
     double totalArea = 0.0;
     const Geometry& geometry = scene.geometry;
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
-        const double area = areaOf(geometry, geometry.triangles[i]);
+        const double area = areaOf(geometry, i);
         const Material& material = scene.materials[geometry.materials[i]];
         sum += area * glm::dvec3(meanAlbedo(material) * vertexColourOf(geometry, i));
         totalArea += area;

@@ -26,12 +26,13 @@ struct MaterialEnergy {
 /// `albedo`: the base colour, which colours of vertices can only make smaller.
 MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo);
 
-/// Totals over the emitting triangles of a scene.
+/// Totals over the emitters of a scene.
 struct EmitterSummary {
     std::size_t points = 0;
     std::size_t triangles = 0;
-    double area = 0.0;               ///< in scene units squared
-    glm::dvec3 invisiblePower{0.0};  ///< W in scene units: pi A E, or 2 pi A E for both sides
+    double area = 0.0;  ///< of the triangles, in scene units squared
+    /// W in scene units: pi A E, or 2 pi A E for both sides; 4 pi I of points.
+    glm::dvec3 invisiblePower{0.0};
     glm::dvec3 visiblePower{0.0};
 };
 EmitterSummary summariseEmitters(const Scene& scene);

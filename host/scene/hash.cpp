@@ -4,28 +4,37 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <type_traits>
+#include <vector>
+
+#include "host/scene/fields.h"
 
 namespace duolux {
 
 namespace {
 
 void addTo(Hasher& hasher, const ReflectanceMatrix& matrix) {
-    for (const glm::vec3& entry : {matrix.m00, matrix.m01, matrix.m10, matrix.m11})
+    const auto& [m00, m01, m10, m11] = matrix;
+    for (const glm::vec3& entry : {m00, m01, m10, m11})
         duolux::addTo(hasher, entry);
 }
 
-template <typename T>
-void addArray(Hasher& hasher, const std::vector<T>& items) {
-    hasher.addArray(std::span<const T>(items));
+void addTo(Hasher& hasher, const CameraType& value) {
+    hasher.add(static_cast<std::uint32_t>(value));
 }
 
-void addCamera(Hasher& hasher, const Camera& camera) {
-    addTo(hasher, camera.position);
-    addTo(hasher, camera.target);
-    addTo(hasher, camera.up);
-    hasher.add(static_cast<std::uint32_t>(camera.type));
-    hasher.add(camera.type == CameraType::kOrthographic ? camera.height : camera.vfov);
+void addTo(Hasher& hasher, const Geometry& geometry) {
+    forEachField(geometry, [&]<typename T>(const auto& field, const std::vector<T>& items) {
+        if (!field.isLater || !items.empty()) hasher.addArray(std::span<const T>(items));
+    });
+}
+
+/// Adds nothing if there are none.
+void addTo(Hasher& hasher, const std::vector<PointEmitter>& emitters) {
+    if (!emitters.empty()) hasher.add(std::uint64_t{emitters.size()});
+    for (const PointEmitter& emitter : emitters)
+        forEachField(emitter, [&](const char*, const glm::vec3& field) { duolux::addTo(hasher, field); });
 }
 
 }  // namespace
@@ -44,8 +53,9 @@ void addTo(Hasher& hasher, const Sides& value) {
 }
 
 void addTo(Hasher& hasher, const Reflectance& value) {
-    addTo(hasher, value.opaque);
-    addTo(hasher, value.transparent);
+    const auto& [opaque, transparent] = value;
+    addTo(hasher, opaque);
+    addTo(hasher, transparent);
 }
 
 void addTo(Hasher& hasher, const Emission& value) {
@@ -71,31 +81,26 @@ std::size_t MaterialHash::operator()(const Material& material) const {
 
 std::string hashScene(const Scene& scene) {
     Hasher hasher;
-    const Geometry& geometry = scene.geometry;
-    addArray(hasher, geometry.positions);
-    addArray(hasher, geometry.triangles);
-    addArray(hasher, geometry.materials);
-    addArray(hasher, geometry.normals);
-    addArray(hasher, geometry.normalIndices);
-    if (!geometry.colours.empty()) addArray(hasher, geometry.colours);
-    for (const auto& [position, invisible, visible] : scene.pointEmitters) {
-        for (const glm::vec3& field : {position, invisible, visible})
-            addTo(hasher, field);
-    }
-    for (const Material& material : scene.materials) {
+    // All fields by name: a further one does not compile until it is handled here.
+    const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, origin, content] =
+        scene;
+    static_cast<void>(std::tie(source, content));  // which do not matter to the image
+    addTo(hasher, geometry);
+    addTo(hasher, pointEmitters);
+    for (const Material& material : materials) {
         forEachField(material, [&]<typename T>(const char*, const T& field) {
             if constexpr (std::is_same_v<T, std::optional<Reflectance>>) {
-                addTo(hasher, field.value_or(scene.reflectance));
+                addTo(hasher, field.value_or(reflectance));
             } else {
                 addTo(hasher, field);
             }
         });
     }
     for (int i = 0; i < 3; ++i)
-        hasher.add(scene.origin[i]);
-    addCamera(hasher, scene.camera);
-    hasher.add(scene.display.x);
-    hasher.add(scene.display.y);
+        hasher.add(origin[i]);
+    forEachField(camera, [&](const char*, const auto& field) { addTo(hasher, field); });
+    hasher.add(display.x);
+    hasher.add(display.y);
     return fmt::format("{:016x}", hasher.digest());
 }
 

@@ -4,13 +4,26 @@
 
 namespace duolux {
 
+namespace {
+
+/// Half the height of the image plane.
+double halfHeight(const Camera& camera) {
+    switch (camera.type) {
+        case CameraType::kPerspective:
+            return std::tan(glm::radians(static_cast<double>(camera.vfov)) / 2.0);
+        case CameraType::kOrthographic:
+            return static_cast<double>(camera.height) / 2.0;
+    }
+    return 0.0;
+}
+
+}  // namespace
+
 // Computed in double precision, so that each result is rounded once.
 ImagePlane imagePlane(const Camera& camera, double aspect) {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.position));
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
-    const double half = camera.type == CameraType::kOrthographic
-                            ? static_cast<double>(camera.height) / 2.0
-                            : std::tan(glm::radians(static_cast<double>(camera.vfov)) / 2.0);
+    const double half = halfHeight(camera);
     return {glm::vec3(forward), glm::vec3(right * (half * aspect)),
             glm::vec3(glm::cross(right, forward) * half), static_cast<float>(4.0 * half * half * aspect)};
 }
@@ -21,8 +34,23 @@ ImagePlane imagePlane(const Camera& camera, std::uint32_t width, std::uint32_t h
 
 CameraRay cameraRay(const Camera& camera, const ImagePlane& plane, glm::vec2 point) {
     const glm::vec3 across = point.x * plane.right + point.y * plane.up;
-    if (camera.type == CameraType::kOrthographic) return {camera.position + across, plane.forward};
-    return {camera.position, glm::normalize(plane.forward + across)};
+    switch (camera.type) {
+        case CameraType::kPerspective:
+            return {camera.position, glm::normalize(plane.forward + across)};
+        case CameraType::kOrthographic:
+            return {camera.position + across, plane.forward};
+    }
+    return {};
+}
+
+bool hasParallelRays(CameraType type) {
+    switch (type) {
+        case CameraType::kPerspective:
+            return false;
+        case CameraType::kOrthographic:
+            return true;
+    }
+    return false;
 }
 
 RayStart rayStart(const Camera& camera, const Bounds& bounds) {

@@ -29,6 +29,10 @@ struct CameraRay {
 /// The camera ray through a point of the image plane.
 CameraRay cameraRay(const Camera& camera, const ImagePlane& plane, glm::vec2 point);
 
+/// Whether all camera rays have the same direction, so that the image shows as much at every depth as on its
+/// plane. Otherwise it shows as much as on its plane times the depth.
+bool hasParallelRays(CameraType type);
+
 /// A start for camera rays: no part of the scene is nearer than the plane at this depth.
 struct RayStart {
     glm::vec3 position;  ///< on the camera's axis

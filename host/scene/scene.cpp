@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "host/scene/fields.h"
+
 namespace duolux {
 
 const char* nameOf(Sides sides) {
@@ -9,7 +11,13 @@ const char* nameOf(Sides sides) {
 }
 
 const char* nameOf(CameraType type) {
-    return type == CameraType::kOrthographic ? "orthographic" : "perspective";
+    switch (type) {
+        case CameraType::kPerspective:
+            return "perspective";
+        case CameraType::kOrthographic:
+            return "orthographic";
+    }
+    return "";
 }
 
 const char* nameOf(Sampler sampler) {
@@ -26,12 +34,18 @@ void noteContent(Scene& scene) {
 }
 
 void removeLamp(Scene& scene) {
-    Geometry& geometry = scene.geometry;
-    geometry.positions.resize(scene.content.positions);
-    geometry.triangles.resize(scene.content.triangles);
-    geometry.materials.resize(scene.content.triangles);
-    if (!geometry.colours.empty()) geometry.colours.resize(scene.content.positions);
-    if (!geometry.normalIndices.empty()) geometry.normalIndices.resize(scene.content.triangles);
+    forEachField(scene.geometry, [&](const auto& field, auto& items) {
+        switch (field.per) {
+            case Per::kPosition:
+                if (!items.empty()) items.resize(scene.content.positions);
+                break;
+            case Per::kTriangle:
+                if (!items.empty()) items.resize(scene.content.triangles);
+                break;
+            case Per::kNormal:  // a lamp has none
+                break;
+        }
+    });
     scene.materials.resize(scene.content.materials);
 }
 

@@ -23,7 +23,10 @@ bool any(const glm::vec3& v) {
 class Inspection {
   public:
     Inspection(const Scene& scene, const RenderSettings& settings)
-        : scene_(scene), settings_(settings), surface_(scene, scene.geometry.triangles.size()) {
+        : scene_(scene),
+          settings_(settings),
+          emitters_(listEmitters(scene)),
+          surface_(scene, scene.geometry.triangles.size()) {
         lookThrough(scene.camera, settings_.aspect(), surface_,
                     [&](const SurfacePoint& point, std::uint32_t) { seen_.push_back(point); });
     }
@@ -53,9 +56,15 @@ class Inspection {
         return most == counts.end() ? std::string() : most->first;
     }
 
+    /// The material of the first emitting triangle.
     std::string emitter() const {
-        for (const std::uint32_t material : scene_.geometry.materials) {
-            if (scene_.materials[material].emission.any()) return scene_.materials[material].name;
+        for (const SceneEmitter& emitter : emitters_) {
+            switch (emitter.kind) {
+                case EmitterKind::kTriangle:
+                    return scene_.materials[scene_.geometry.materials[emitter.index]].name;
+                case EmitterKind::kPoint:
+                    break;
+            }
         }
         return {};
     }
@@ -75,16 +84,13 @@ class Inspection {
     bool anythingBecomesVisible() const {
         bool invisible = false, visible = false, fromInvisible = false, fromVisible = false;
         for (const std::uint32_t index : scene_.geometry.materials) {
-            const Material& material = scene_.materials[index];
-            const ReflectanceMatrix& opaque = scene_.reflectanceOf(material).opaque;
-            invisible = invisible || any(material.emission.invisible);
-            visible = visible || any(material.emission.visible);
+            const ReflectanceMatrix& opaque = scene_.reflectanceOf(scene_.materials[index]).opaque;
             fromInvisible = fromInvisible || any(opaque.m10);
             fromVisible = fromVisible || any(opaque.m11);
         }
-        for (const PointEmitter& point : scene_.pointEmitters) {
-            invisible = invisible || any(point.invisible);
-            visible = visible || any(point.visible);
+        for (const SceneEmitter& emitter : emitters_) {
+            invisible = invisible || any(emitter.emission.invisible);
+            visible = visible || any(emitter.emission.visible);
         }
         return (invisible && fromInvisible) || (visible && fromVisible);
     }
@@ -108,7 +114,7 @@ class Inspection {
     }
 
     Darkness darkness() const {
-        if (!anyEmitter(scene_)) return Darkness::kNothingEmits;
+        if (emitters_.empty()) return Darkness::kNothingEmits;
         if (filled() < kFewest) return Darkness::kLooksPast;
         if (nearlyAll([&](const SurfacePoint& point) { return emits(point); }))
             return Darkness::kOnlyEmitters;
@@ -133,6 +139,7 @@ class Inspection {
 
     const Scene& scene_;
     const RenderSettings& settings_;
+    std::vector<SceneEmitter> emitters_;
     Surface surface_;
     std::vector<SurfacePoint> seen_;
 };

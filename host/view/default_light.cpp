@@ -83,7 +83,7 @@ bool isOutOfView(const Place& place, const Camera& camera, float aspect) {
         const float depth = glm::dot(offset, frame.forward);
         const float x = glm::dot(offset, frame.right), y = glm::dot(offset, frame.up);
         behind = behind && depth < 0.0f;
-        const float widening = camera.type == CameraType::kOrthographic ? 1.0f : depth;
+        const float widening = hasParallelRays(camera.type) ? 1.0f : depth;
         above = above && y > halfHeight * widening;
         below = below && -y > halfHeight * widening;
         right = right && x > halfWidth * widening;

@@ -14,10 +14,6 @@ namespace duolux {
 
 namespace {
 
-bool emitsFromItsFront(const Material& material) {
-    return material.emission.any() && material.emission.sides == Sides::kFront;
-}
-
 /// The mean distance, up to the size of the scene, to surfaces that one side of an emitter could light.
 float reach(const Surface& surface, const SurfacePoint& point) {
     constexpr int kDirections = 32;
@@ -68,10 +64,15 @@ void judge(const Surface& surface, Emitters& emitters) {
 
 std::vector<Warning> emitterWarnings(const Surface& surface, const Camera& camera, float aspect) {
     std::map<std::uint32_t, Emitters> all;  // by material
-    for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
-        if (!emitsFromItsFront(surface.materialOf(i))) continue;
-        if (glm::length(surface.triangles()[i].areaVector()) > 0.0f)
-            all[surface.triangles()[i].material].triangles.push_back(i);
+    for (const auto& [kind, index, emission, area] : surface.listEmitters()) {
+        switch (kind) {
+            case EmitterKind::kTriangle:
+                if (emission.sides == Sides::kFront)
+                    all[surface.triangles()[index].material].triangles.push_back(index);
+                break;
+            case EmitterKind::kPoint:  // has no sides
+                break;
+        }
     }
     if (all.empty()) return {};
     lookThrough(camera, aspect, surface, [&](const SurfacePoint& point, std::uint32_t) {

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "host/base/parallel.h"
+#include "host/scene/image_plane.h"
 #include "host/view/hollows.h"
 #include "host/view/inside_views.h"
 #include "host/view/view_axes.h"
@@ -48,9 +49,15 @@ std::vector<glm::dvec3> outermost(const std::vector<glm::dvec3>& points) {
 /// given.
 Camera asChosen(Camera camera, const CameraChoice& choice) {
     camera.type = choice.type.value_or(CameraType::kPerspective);
-    if (camera.type == CameraType::kOrthographic) {
-        const float distance = glm::distance(camera.position, camera.target);
-        camera.height = choice.height.value_or(2.0f * distance * std::tan(0.5f * glm::radians(camera.vfov)));
+    switch (camera.type) {
+        case CameraType::kPerspective:
+            break;
+        case CameraType::kOrthographic: {
+            const float distance = glm::distance(camera.position, camera.target);
+            camera.height =
+                choice.height.value_or(2.0f * distance * std::tan(0.5f * glm::radians(camera.vfov)));
+            break;
+        }
     }
     return camera;
 }
@@ -79,8 +86,14 @@ class Framer {
         const View outside = bestOutside();
         if (!parallel()) {
             const EnclosedEmitters lamps(surface_);
-            const std::optional<InsideView> inside = bestInsideView(surface_, samples_, lamps, axes_, aspect_,
-                                                                    choice_.vfov, target_, outside.unseen);
+            const std::optional<InsideView> inside = bestInsideView({.surface = surface_,
+                                                                     .samples = samples_,
+                                                                     .emitters = lamps,
+                                                                     .axes = axes_,
+                                                                     .aspect = aspect_,
+                                                                     .vfov = choice_.vfov,
+                                                                     .target = target_,
+                                                                     .unseen = outside.unseen});
             // The view from outside is worth little of a room, whose walls are all that it shows, and less
             // if all emitters are inside, because it is then dark.
             constexpr float kDarkWorth = 0.05f, kBlockWorth = 0.2f;
@@ -106,7 +119,7 @@ class Framer {
     };
 
     float vfov() const { return choice_.vfov.value_or(kDefaultVfov); }
-    bool parallel() const { return choice_.type == CameraType::kOrthographic; }
+    bool parallel() const { return hasParallelRays(choice_.type.value_or(CameraType::kPerspective)); }
 
     Frustum frustumOf(const glm::vec3& forward, float angle) const {
         const auto [right, up] = axes_.across(forward);

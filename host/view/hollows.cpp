@@ -60,9 +60,14 @@ EnclosedEmitters::EnclosedEmitters(const Surface& surface) : surface_(surface) {
     constexpr int kDirections = 32;
     constexpr float kOpen = 0.03f, kNarrow = 0.1f;
     std::vector<std::uint32_t> emitters;
-    for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
-        if (surface.materialOf(i).emission.any() && glm::length(surface.triangles()[i].areaVector()) > 0.0f)
-            emitters.push_back(i);
+    for (const SceneEmitter& emitter : surface.listEmitters()) {
+        switch (emitter.kind) {
+            case EmitterKind::kTriangle:
+                emitters.push_back(emitter.index);
+                break;
+            case EmitterKind::kPoint:  // not part of the surface
+                break;
+        }
     }
     const std::size_t count = std::min(kMost, emitters.size());
     float misses = 0.0f, distance = 0.0f;

@@ -15,13 +15,13 @@ float facedPart(const Surface& surface, const SurfacePoint& point, Random& rando
 /// of its walls whose normals point outwards. `front`: a point on the front side.
 bool isInsideOut(const Surface& surface, const SurfacePoint& front, std::uint32_t seed);
 
-/// Whether all emitters are in spaces that are closed all around, as lamps in rooms are, and wide enough for
-/// a camera.
+/// Whether all emitting triangles are in spaces that are closed all around, as lamps in rooms are, and wide
+/// enough for a camera.
 class EnclosedEmitters {
   public:
     explicit EnclosedEmitters(const Surface& surface);
 
-    /// Whether there are emitters, and none of them is seen from outside.
+    /// Whether there are such triangles, and none of them is seen from outside.
     bool all() const { return enclosed_; }
 
     /// Whether a point sees any of the emitters from one of their sides.

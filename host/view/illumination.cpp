@@ -30,25 +30,27 @@ SurfacePoint pointOf(const Surface& surface, const glm::vec3& origin, const glm:
 
 Illumination::Illumination(const Surface& surface, std::optional<std::uint32_t> material, bool bothSides)
     : surface_(surface) {
-    for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
-        if (material && surface.triangles()[i].material != *material) continue;
-        const Emission& emission = surface.materialOf(i).emission;
+    for (const auto& [kind, index, emission, area] : surface.listEmitters()) {
         const float radiance = mean(emission.invisible);
-        const glm::vec3 area = surface.triangles()[i].areaVector();
-        const float size = glm::length(area);
-        if (!(radiance > 0.0f && size > 0.0f)) continue;
-        const bool both = bothSides || emission.sides == Sides::kBoth;
-        const double power = static_cast<double>(radiance) * static_cast<double>(size) * (both ? 2.0 : 1.0);
-        emitters_.push_back({i, power_, power, area / size, radiance, both});
-        power_ += power;
-    }
-    if (material) return;
-    for (const PointEmitter& point : surface.scene().pointEmitters) {
-        // In the unit of the others, radiance times twice the area, of which the flux is pi / 2.
-        const double power = 8.0 * static_cast<double>(mean(point.invisible));
-        if (!(power > 0.0)) continue;
-        emitters_.push_back({kPoint, power_, power, point.position, mean(point.invisible), false});
-        power_ += power;
+        if (!(radiance > 0.0f)) continue;
+        Emitter emitter{kind, index, power_, glm::vec3(0.0f), false, glm::vec3(0.0f)};
+        switch (kind) {
+            case EmitterKind::kTriangle: {
+                const Surface::Triangle& triangle = surface.triangles()[index];
+                if (material && triangle.material != *material) continue;
+                emitter.both = bothSides || emission.sides == Sides::kBoth;
+                emitter.normal = triangle.areaVector() / static_cast<float>(area);
+                power_ += static_cast<double>(radiance) * area * (emitter.both ? 2.0 : 1.0);
+                break;
+            }
+            case EmitterKind::kPoint:
+                if (material) continue;
+                emitter.position = surface.scene().pointEmitters[index].position;
+                // In the unit of the others, radiance times twice the area, of which the flux is pi / 2.
+                power_ += 8.0 * static_cast<double>(radiance);
+                break;
+        }
+        emitters_.push_back(emitter);
     }
 }
 
@@ -58,19 +60,32 @@ float Illumination::direct(const SurfacePoint& point, const glm::vec3& random) c
                                         [](double p, const Emitter& e) { return p < e.powerBefore; });
     const Emitter& emitter = *(after - 1);
     const glm::vec3 origin = point.position + kOffset * point.normal;
-    if (emitter.triangle == kPoint) {
-        const glm::vec3 offset = emitter.normal - origin;
-        const float squared = glm::dot(offset, offset);
-        const float cosine = glm::dot(point.normal, offset) / std::sqrt(squared);
-        if (!(cosine > 0.0f) || !surface_.sees(origin, emitter.normal, point.triangle)) return 0.0f;
-        return cosine / squared * static_cast<float>(power_) / (8.0f * glm::pi<float>());
+    switch (emitter.kind) {
+        case EmitterKind::kTriangle:
+            return fromTriangle(emitter, point, origin, random);
+        case EmitterKind::kPoint:
+            return fromPoint(emitter, point, origin);
     }
-    const Surface::Triangle& t = surface_.triangles()[emitter.triangle];
+    return 0.0f;
+}
+
+float Illumination::fromPoint(const Emitter& emitter, const SurfacePoint& point,
+                              const glm::vec3& origin) const {
+    const glm::vec3 offset = emitter.position - origin;
+    const float squared = glm::dot(offset, offset);
+    const float cosine = glm::dot(point.normal, offset) / std::sqrt(squared);
+    if (!(cosine > 0.0f) || !surface_.sees(origin, emitter.position, point.triangle)) return 0.0f;
+    return cosine / squared * static_cast<float>(power_) / (8.0f * glm::pi<float>());
+}
+
+float Illumination::fromTriangle(const Emitter& emitter, const SurfacePoint& point, const glm::vec3& origin,
+                                 const glm::vec3& random) const {
+    const Surface::Triangle& t = surface_.triangles()[emitter.index];
     const float root = std::sqrt(random.x);
     const glm::vec3 at = t.corner + root * (1.0f - random.y) * t.edge1 + root * random.y * t.edge2;
     const glm::vec3 offset = at - origin;
     const float squared = glm::dot(offset, offset);
-    if (!(squared > 0.0f) || emitter.triangle == point.triangle) return 0.0f;
+    if (!(squared > 0.0f) || emitter.index == point.triangle) return 0.0f;
     const glm::vec3 direction = offset / std::sqrt(squared);
     const float cosine = glm::dot(point.normal, direction);
     float cosineThere = -glm::dot(emitter.normal, direction);

@@ -42,14 +42,17 @@ class Illumination {
 
   private:
     struct Emitter {
-        std::uint32_t triangle;     // kPoint: it is a point
-        double powerBefore, power;  // total power of the preceding emitters, and the emitter's own power
-        glm::vec3 normal;           // of a point: its position
-        float radiance;
-        bool both;
+        EmitterKind kind;
+        std::uint32_t index;  // of the triangle
+        double powerBefore;   // total power of the preceding emitters
+        glm::vec3 normal;     // of a triangle
+        bool both;            // sides of a triangle
+        glm::vec3 position;   // of a point
     };
-    static constexpr std::uint32_t kPoint = 0xffffffffu;
 
+    float fromPoint(const Emitter& emitter, const SurfacePoint& point, const glm::vec3& origin) const;
+    float fromTriangle(const Emitter& emitter, const SurfacePoint& point, const glm::vec3& origin,
+                       const glm::vec3& random) const;
     float direct(const SurfacePoint& point, const glm::vec3& random) const;
 
     const Surface& surface_;

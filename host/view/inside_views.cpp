@@ -70,10 +70,8 @@ float insideVfov(float aspect) {
     return 2.0f * glm::degrees(std::atan(0.64f / std::sqrt(std::clamp(aspect, 0.25f, 4.0f))));
 }
 
-std::optional<InsideView> bestInsideView(const Surface& surface, const ViewSamples& samples,
-                                         const EnclosedEmitters& emitters, const ViewAxes& axes, float aspect,
-                                         std::optional<float> vfov, const std::optional<glm::vec3>& target,
-                                         float unseen) {
+std::optional<InsideView> bestInsideView(const InsideSearch& search) {
+    const auto& [surface, samples, emitters, axes, aspect, vfov, target, unseen] = search;
     std::vector<Heart> hearts;
     if (target) {
         hearts = {probe(surface, *target)};

@@ -59,6 +59,20 @@ Surface::Surface(const Scene& scene, std::size_t framedTriangles)
     tree_ = buildBinaryBvh(boxes, SplitMethod::kBinnedSah);
 }
 
+std::vector<SceneEmitter> Surface::listEmitters() const {
+    std::vector<SceneEmitter> emitters;
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+        const Emission& emission = materialOf(i).emission;
+        const float area = glm::length(triangles_[i].areaVector());
+        if (emission.any() && area > 0.0f)
+            emitters.push_back({EmitterKind::kTriangle, i, emission, static_cast<double>(area)});
+    }
+    for (const SceneEmitter& emitter : duolux::listEmitters(*scene_)) {
+        if (emitter.kind != EmitterKind::kTriangle) emitters.push_back(emitter);
+    }
+    return emitters;
+}
+
 /// Moeller and Trumbore, "Fast, Minimum Storage Ray-Triangle Intersection", 1997.
 bool Surface::meets(std::uint32_t triangle, Ray& ray) const {
     const Triangle& t = triangles_[triangle];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/bvh/binary_bvh.h"
+#include "host/scene/emitters.h"
 #include "host/scene/scene.h"
 #include "host/view/bulk.h"
 
@@ -60,6 +61,10 @@ class Surface {
 
     /// Whether no triangle, except `skipped`, lies between two points.
     bool sees(const glm::vec3& from, const glm::vec3& to, std::uint32_t skipped = kNone) const;
+
+    /// The emitters with an area, and those that are no triangles, in the order of the scene's: `index` is
+    /// that of a triangle of this surface, `area` is in local units.
+    std::vector<SceneEmitter> listEmitters() const;
 
   private:
     struct Ray;

@@ -3,6 +3,7 @@
 #define DUOLUX_LIB_INTERSECT_GLSL
 
 #include "shaders/lib/warp.glsl"
+#include "shaders/shared/rounding.h"
 
 struct Triangle {
     vec3 v0;
@@ -106,10 +107,10 @@ vec3 pointOnTriangle(Triangle tri, vec2 barycentric) {
 }
 
 // Bound on the rounding error of a point on a triangle with vertices of this size, and of the distance at which a ray
-// from that point intersects a neighbouring coplanar triangle: a multiple of the unit roundoff 2^-24 of a float.
+// from that point intersects a neighbouring coplanar triangle.
 float pointError(Triangle tri) {
     vec3 largest = max(abs(tri.v0), max(abs(tri.v1), abs(tri.v2)));
-    return max(largest.x, max(largest.y, largest.z)) * (32.0 / 16777216.0);
+    return max(largest.x, max(largest.y, largest.z)) * kPointError;
 }
 
 #endif

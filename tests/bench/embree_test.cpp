@@ -39,7 +39,7 @@ TEST(Embree, PathTracerMatchesTheReference) {
         std::ranges::fill(pixel.variance[0], 0.0);
     }
     const EmbreeScene embree(scene.geometry);
-    const EmitterTable emitters = buildEmitterTable(scene, emittingTriangles(scene), false);
+    const EmitterTable emitters = buildEmitterTable(scene, listEmitters(scene), false);
     std::vector<RadianceImage> renders;
     for (scene.settings.seed = 1; scene.settings.seed <= 16; ++scene.settings.seed)
         renders.push_back(renderByEmbree(embree, scene, scene.settings, emitters));

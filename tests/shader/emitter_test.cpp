@@ -88,7 +88,7 @@ ShaderLibrary emitters(const Records& records) {
 }
 
 EmitterTable tableOf(const Scene& scene) {
-    return buildEmitterTable(scene, emittingTriangles(scene), true);
+    return buildEmitterTable(scene, listEmitters(scene), true);
 }
 
 /// The emitters that the words choose.

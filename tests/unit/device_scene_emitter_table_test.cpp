@@ -42,7 +42,7 @@ LoadedScene twoEmitters() {
 }
 
 EmitterTable tableOf(const LoadedScene& scene, bool bothComponents) {
-    return buildEmitterTable(scene, emittingTriangles(scene), bothComponents);
+    return buildEmitterTable(scene, listEmitters(scene), bothComponents);
 }
 
 TEST(EmitterTable, DensityIsPowerOverTotalPower) {

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <vector>
 
+#include "host/scene/emitters.h"
 #include "host/scene/energy.h"
 
 namespace duolux {
@@ -75,6 +77,40 @@ TEST(Energy, PowerOfEmitters) {
     EXPECT_NEAR(emitters.visiblePower.z, 30.0 * glm::pi<double>(), 1e-9);
     scene.materials[0].emission.sides = Sides::kBoth;
     EXPECT_NEAR(summariseEmitters(scene).invisiblePower.y, 24.0 * glm::pi<double>(), 1e-9);
+}
+
+TEST(Energy, PowerOfPoints) {
+    LoadedScene scene = twoAreas();
+    scene.pointEmitters = {{{0, 0, 9}, {1, 2, 3}, {0, 0, 7}}, {{0, 0, 8}, {0, 1, 0}, {0, 0, 0}}};
+    const EmitterSummary emitters = summariseEmitters(scene);
+    EXPECT_EQ(emitters.points, 2u);
+    EXPECT_EQ(emitters.triangles, 2u);
+    EXPECT_NEAR(emitters.area, 6.0, 1e-9);
+    EXPECT_NEAR(emitters.invisiblePower.y, (12.0 + 4.0 * 3.0) * glm::pi<double>(), 1e-9);
+    EXPECT_NEAR(emitters.visiblePower.z, (30.0 + 4.0 * 7.0) * glm::pi<double>(), 1e-9);
+}
+
+TEST(Emitters, AreTrianglesThenPoints) {
+    LoadedScene scene = twoAreas();
+    scene.pointEmitters = {{{0, 0, 9}, {1, 2, 3}, {0, 0, 7}}};
+    const std::vector<SceneEmitter> emitters = listEmitters(scene);
+    ASSERT_EQ(emitters.size(), 3u);
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(emitters[i].kind, EmitterKind::kTriangle);
+        EXPECT_EQ(emitters[i].index, i);
+        EXPECT_EQ(emitters[i].area, 3.0);
+        EXPECT_EQ(emitters[i].emission, scene.materials[0].emission);
+    }
+    EXPECT_EQ(emitters[2].kind, EmitterKind::kPoint);
+    EXPECT_EQ(emitters[2].index, 0u);
+    EXPECT_EQ(emitters[2].emission.invisible, glm::vec3(1, 2, 3));
+    EXPECT_EQ(emitters[2].emission.visible, glm::vec3(0, 0, 7));
+    EXPECT_EQ(emittingTriangles(scene), (std::vector<std::uint32_t>{0, 1}));
+    scene.materials[0].emission = {};
+    EXPECT_TRUE(emittingTriangles(scene).empty());
+    EXPECT_TRUE(anyEmitter(scene));
+    scene.pointEmitters.clear();
+    EXPECT_FALSE(anyEmitter(scene));
 }
 
 TEST(Energy, MeanAlbedoIsByArea) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/base/error.h"
+#include "host/scene/emitters.h"
 
 namespace duolux {
 
@@ -79,12 +80,19 @@ std::vector<PointLight> pointLights(const Scene& scene, const Tiling& tiling) {
         std::uint32_t material;
     };
     std::vector<Emitter> emitters;
-    for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
-        const Material& material = scene.materials[geometry.materials[t]];
-        if (glm::all(glm::equal(material.emission.invisible, glm::vec3(0.0f)))) continue;
-        const glm::uvec3 v = geometry.triangles[t];
-        emitters.push_back({{geometry.positions[v.x], geometry.positions[v.y], geometry.positions[v.z]},
-                            geometry.materials[t]});
+    for (const SceneEmitter& emitter : listEmitters(scene)) {
+        if (glm::all(glm::equal(emitter.emission.invisible, glm::vec3(0.0f)))) continue;
+        switch (emitter.kind) {
+            case EmitterKind::kTriangle: {
+                const glm::uvec3 v = geometry.triangles[emitter.index];
+                emitters.push_back(
+                    {{geometry.positions[v.x], geometry.positions[v.y], geometry.positions[v.z]},
+                     geometry.materials[emitter.index]});
+                break;
+            }
+            case EmitterKind::kPoint:  // not a luminaire
+                break;
+        }
     }
     if (emitters.empty()) {
         throw InputError(scene.source.string(), "", "nothing emits invisible light", "expected a luminaire");

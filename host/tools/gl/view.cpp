@@ -5,6 +5,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "host/scene/image_plane.h"
+
 namespace duolux {
 
 glm::vec2 jitterOf(std::uint32_t index) {
@@ -16,21 +18,28 @@ glm::vec2 jitterOf(std::uint32_t index) {
 }
 
 glm::mat4 viewMatrix(const Camera& camera) {
-    return glm::lookAt(camera.position, camera.target, camera.up);
+    const ImagePlane plane = imagePlane(camera, 1.0);
+    const glm::vec3 eye = cameraRay(camera, plane, glm::vec2(0.0f)).origin;
+    const glm::mat3 axes =
+        glm::transpose(glm::mat3(glm::normalize(plane.right), glm::normalize(plane.up), -plane.forward));
+    glm::mat4 view(axes);
+    view[3] = glm::vec4(-(axes * eye), 1.0f);
+    return view;
 }
 
 glm::mat4 projectionMatrix(const Scene& scene, const RenderSettings& settings, glm::vec2 jitter,
                            const std::array<float, 4>& window) {
     const Camera& camera = scene.camera;
     const Bounds bounds = boundsOf(scene.geometry);
-    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
+    const ImagePlane plane = imagePlane(camera, settings.width, settings.height);
+    const glm::vec3 eye = cameraRay(camera, plane, glm::vec2(0.0f)).origin;
     float nearest = std::numeric_limits<float>::max();
     float farthest = 0.0f;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 p((corner & 1) != 0 ? bounds.upper.x : bounds.lower.x,
                           (corner & 2) != 0 ? bounds.upper.y : bounds.lower.y,
                           (corner & 4) != 0 ? bounds.upper.z : bounds.lower.z);
-        const float depth = glm::dot(p - camera.position, forward);
+        const float depth = glm::dot(p - eye, plane.forward);
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
     }
@@ -38,22 +47,23 @@ glm::mat4 projectionMatrix(const Scene& scene, const RenderSettings& settings, g
     farthest = std::max(farthest, size * 1e-3f) * 1.001f;
     nearest = std::max(nearest * 0.999f, farthest * 1e-4f);
 
-    const float aspect = settings.aspect();
-    const bool parallel = camera.type == CameraType::kOrthographic;
-    const float halfHeight =
-        parallel ? 0.5f * camera.height : std::tan(glm::radians(camera.vfov) / 2.0f) * nearest;
-    const float halfWidth = halfHeight * aspect;
+    const float widening = hasParallelRays(camera.type) ? 1.0f : nearest;
+    const float halfWidth = widening * glm::length(plane.right);
+    const float halfHeight = widening * glm::length(plane.up);
     // A fragment is computed at the centre of its pixel: the image is moved by what the sample is off it.
     const glm::vec2 moved =
         (jitter - 0.5f) / glm::vec2(settings.width, settings.height) * glm::vec2(window[2], window[3]);
     const auto x = [&](float fraction) { return (2.0f * (fraction + moved.x) - 1.0f) * halfWidth; };
     const auto y = [&](float fraction) { return (1.0f - 2.0f * (fraction + moved.y)) * halfHeight; };
-    if (parallel) {
-        return glm::ortho(x(window[0]), x(window[0] + window[2]), y(window[1] + window[3]), y(window[1]),
-                          nearest, farthest);
+    const float left = x(window[0]), right = x(window[0] + window[2]);
+    const float bottom = y(window[1] + window[3]), top = y(window[1]);
+    switch (camera.type) {
+        case CameraType::kPerspective:
+            return glm::frustum(left, right, bottom, top, nearest, farthest);
+        case CameraType::kOrthographic:
+            return glm::ortho(left, right, bottom, top, nearest, farthest);
     }
-    return glm::frustum(x(window[0]), x(window[0] + window[2]), y(window[1] + window[3]), y(window[1]),
-                        nearest, farthest);
+    return glm::mat4(1.0f);
 }
 
 }  // namespace duolux

@@ -54,7 +54,7 @@ class Pair {
         scene_.settings.bounces = options.bounces;
         deviceScene_ = std::make_unique<DeviceScene>(uploadScene(device, scene_));
         embree_ = std::make_unique<EmbreeScene>(scene_.geometry);
-        emitters_ = buildEmitterTable(scene_, emittingTriangles(scene_), false);
+        emitters_ = buildEmitterTable(scene_, listEmitters(scene_), false);
         addRays(name);
         addRender(name);
         addBuild(name);
