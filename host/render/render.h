@@ -119,9 +119,9 @@ class RenderFailure : public MachineError {
 
 /// Renders a scene once; see Renderer for more. The film includes the resumed samples. Identical scene,
 /// settings, seed and device give a bitwise identical image. Throws InputError as duolux::validate. Throws
-/// UsageError if direct light in closed form is requested but does not apply, if the light tracer is asked for
-/// layers, or if the device does not support the requested tuning. Throws MachineError with the stage and the
-/// driver if the device fails, or RenderFailure once there are samples.
+/// UsageError if direct light in closed form is requested but does not apply, if the light tracer is asked
+/// for layers, or if the device does not support the requested tuning. Throws MachineError with the stage and
+/// the driver if the device fails, or RenderFailure once there are samples.
 RenderOutput render(Device& device, const Scene& scene, const RenderSettings& settings,
                     const RenderControl& control = {});
 
