@@ -338,8 +338,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene, Integrator int
     return assemble(device, scene, integrator, choice, std::move(tree), secondsSince(start));
 }
 
-void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene,
-                      Integrator integrator) {
+void updateScene(DeviceScene& deviceScene, const Device& device, const Scene& scene, Integrator integrator) {
     const TransportTraits traits = analyseTransport(scene);
     const std::vector<SceneEmitter> allEmitters = listEmitters(scene);
     const std::vector<std::uint32_t> emitters = emittingTriangles(allEmitters);

@@ -57,9 +57,13 @@ void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Sc
 DeviceScene uploadScene(const Device& device, const Scene& scene,
                         Integrator integrator = Integrator::kPathTracer, const TuningChoice& choice = {});
 
-/// Brings the device up to date with a scene of the same geometry whose materials and reflectances may be
-/// others, and the integrator, too. The tree over all triangles is not built again. Throws as uploadScene.
-void replaceMaterials(DeviceScene& deviceScene, const Device& device, const Scene& scene,
-                      Integrator integrator);
+/// Brings the device up to date with a scene of the same geometry whose materials, reflectances and point
+/// emitters may be others, and the integrator, too. Uploads only the records of materials and emitters if the
+/// same triangles emit as before, no surfaces coincide (DeviceScene::hasPlanes), and light passes unchanged
+/// through all surfaces (kTransparencyIdentity, which requires a tree over the emitters) before and after, or
+/// neither. Otherwise uploads all again: the tree over all triangles is kept on the host, and that over the
+/// emitters is built; with Layout::kRayQuery the driver builds its whole structure again. Throws as
+/// uploadScene.
+void updateScene(DeviceScene& deviceScene, const Device& device, const Scene& scene, Integrator integrator);
 
 }  // namespace duolux

@@ -122,10 +122,11 @@ class RenderFailure : public MachineError {
 };
 
 /// Renders a scene once; see Renderer for more. The film includes the resumed samples. Identical scene,
-/// settings, seed and device give a bitwise identical image. Throws UsageError if the range of samples is
-/// empty, if direct light in closed form is requested but does not apply, if the light tracer is asked for
-/// layers, or if the device does not support the requested tuning. Throws DeviceError with the stage and the
-/// driver if the device fails, MemoryError if memory runs out, or RenderFailure once there are samples.
+/// settings, seed and device give a bitwise identical image. Throws InputError as duolux::validate. Throws
+/// UsageError if the range of samples is empty, if direct light in closed form is requested but does not
+/// apply, if the light tracer is asked for layers, or if the device does not support the requested tuning.
+/// Throws DeviceError with the stage and the driver if the device fails, MemoryError if memory runs out, or
+/// RenderFailure once there are samples.
 RenderOutput render(Device& device, const Scene& scene, const RenderSettings& settings,
                     const RenderControl& control = {});
 

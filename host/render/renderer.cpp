@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <new>
 #include <utility>
 
+#include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/render/context.h"
+#include "host/scene/validate.h"
 
 namespace duolux {
 
@@ -15,6 +16,7 @@ namespace {
 
 DeviceScene upload(const Device& device, const Scene& scene, Integrator integrator,
                    const TuningChoice& tuning) {
+    validate(scene);
     try {
         return uploadScene(device, scene, integrator, tuning);
     } catch (const std::bad_alloc&) {
@@ -35,14 +37,23 @@ void Renderer::setReflectance(const Reflectance& reflectance) {
 }
 
 void Renderer::setMaterials(std::vector<Material> materials) {
-    assert(materials.size() == scene_.materials.size());
+    if (materials.size() != scene_.materials.size()) {
+        throw UsageError(fmt::format("{} materials cannot replace the {} of the scene; expected as many",
+                                     materials.size(), scene_.materials.size()));
+    }
     upToDate_ = upToDate_ && materials == scene_.materials;
     scene_.materials = std::move(materials);
 }
 
+void Renderer::setPointEmitters(std::vector<PointEmitter> emitters) {
+    upToDate_ = false;
+    scene_.pointEmitters = std::move(emitters);
+}
+
 RenderOutput Renderer::render(const RenderSettings& settings, const RenderControl& control) {
+    validateExceptGeometry(scene_);
     if (!upToDate_ || settings.integrator != integrator_)
-        replaceMaterials(deviceScene_, device_, scene_, settings.integrator);
+        updateScene(deviceScene_, device_, scene_, settings.integrator);
     integrator_ = settings.integrator;
     upToDate_ = true;
     return renderOnDevice(device_, scene_, deviceScene_, settings, control);

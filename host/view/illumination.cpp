@@ -45,9 +45,9 @@ Illumination::Illumination(const Surface& surface, std::optional<std::uint32_t> 
             }
             case EmitterKind::kPoint:
                 if (material) continue;
-                emitter.position = surface.scene().pointEmitters[index].position;
-                // In the unit of the others, radiance times twice the area, of which the flux is pi / 2.
-                power_ += 8.0 * static_cast<double>(radiance);
+                emitter.position = surface.toLocal(glm::dvec3(surface.scene().pointEmitters[index].position));
+                // As radiance times twice an area in local units, of which the flux is pi / 2.
+                power_ += 8.0 * static_cast<double>(radiance) * surface.scale() * surface.scale();
                 break;
         }
         emitters_.push_back(emitter);

@@ -82,6 +82,27 @@ class RendererTest : public testing::Test {
             material.reflectance = *presetReflectance("local");
         renderer.setMaterials(materials);
         expectSame(renderer, settings, tuning, "reflectances of materials");
+
+        const glm::vec3 middle =
+            0.5f * (boundsOf(renderer.scene().geometry).lower + boundsOf(renderer.scene().geometry).upper);
+        const PointEmitter lamp{middle, glm::vec3(1e6f, 2e6f, 3e6f), glm::vec3(1e5f)};
+        renderer.setPointEmitters({lamp, {middle + glm::vec3(100, 50, -60), glm::vec3(2e6f), {}}});
+        expectSame(renderer, settings, tuning, "points");
+        renderer.setReflectance(*presetReflectance("shadowless"));
+        for (Material& material : materials) {
+            material.emission = {};
+            material.reflectance.reset();
+        }
+        renderer.setMaterials(materials);
+        expectSame(renderer, settings, tuning, "points alone");
+        settings.integrator = Integrator::kLightTracer;
+        renderer.setPointEmitters({lamp});
+        expectSame(renderer, settings, tuning, "light paths from one point");
+        settings.integrator = Integrator::kPathTracer;
+        materials.back().emission.invisible = glm::vec3(5.0f);
+        renderer.setMaterials(materials);
+        renderer.setPointEmitters({});
+        expectSame(renderer, settings, tuning, "triangles again");
     }
 };
 
@@ -113,6 +134,29 @@ TEST_F(RendererTest, BuildsTheTreeOnce) {
         material.emission.invisible *= 0.5f;
     renderer.setMaterials(materials);
     EXPECT_EQ(renderer.render(scene.settings).statistics.buildSeconds, 0.0);
+    renderer.setPointEmitters({{glm::vec3(278.0f, 270.0f, 280.0f), glm::vec3(1e6f), glm::vec3(0.0f)}});
+    EXPECT_EQ(renderer.render(scene.settings).statistics.buildSeconds, 0.0);
+}
+
+TEST_F(RendererTest, RefusesWhatIsNotValid) {
+    const LoadedScene scene = small(cornellBox());
+    LoadedScene broken = scene;
+    broken.geometry.triangles.back().x = 1'000'000;
+    EXPECT_THROW(Renderer(device(), broken), InputError);
+    EXPECT_THROW(render(device(), broken), InputError);
+
+    Renderer renderer(device(), scene);
+    const RenderOutput before = renderer.render(scene.settings);
+    EXPECT_THROW(renderer.setMaterials({}), UsageError);
+    Camera camera = scene.camera;
+    camera.target = camera.position;
+    renderer.setCamera(camera);
+    EXPECT_THROW(renderer.render(scene.settings), InputError);
+    renderer.setCamera(scene.camera);
+    renderer.setPointEmitters({{glm::vec3(0.0f), glm::vec3(-1.0f), glm::vec3(0.0f)}});
+    EXPECT_THROW(renderer.render(scene.settings), InputError);
+    renderer.setPointEmitters({});
+    EXPECT_TRUE(sameBits(renderer.render(scene.settings).film, before.film));
 }
 
 }  // namespace

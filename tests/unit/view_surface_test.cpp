@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <optional>
 
 #include "host/view/illumination.h"
@@ -92,6 +93,21 @@ TEST(ViewSurface, IlluminationIsThatOfAFurnace) {
         sum += static_cast<double>(illumination.onWhite(point, i + 1, 50)) / kPoints;
     }
     EXPECT_NEAR(sum, 2.0 * (1.0 + 0.5 + 0.25 + 0.125), 0.15) << "four scatterings";
+}
+
+/// A point of intensity I at the height h above white gives it the radiance I / (pi h^2).
+TEST(ViewSurface, IlluminationByAPointIsThatOfItsPlaceInTheScene) {
+    for (const float size : {0.1f, 1.0f, 50.0f}) {
+        const glm::vec3 centre = size * glm::vec3(30, 5, -7);
+        const auto corner = [&](float x, float z) { return centre + size * glm::vec3(x, 0, z); };
+        SceneBuilder builder;
+        builder.quad(corner(-1, 1), corner(1, 1), corner(1, -1), corner(-1, -1), builder.add({}));
+        builder.scene.pointEmitters = {{centre + glm::vec3(0, 2 * size, 0), glm::vec3(3), glm::vec3(0)}};
+        const Surface surface(builder.scene, builder.scene.geometry.triangles.size());
+        const SurfacePoint below{surface.toLocal(glm::dvec3(centre)), {0, 1, 0}, 0, true};
+        const float radiance = Illumination(surface).onWhite(below, 1, 4);
+        EXPECT_NEAR(radiance * size * size, 3.0f / (glm::pi<float>() * 4.0f), 1e-3f) << size;
+    }
 }
 
 }  // namespace
