@@ -14,18 +14,25 @@ class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed * kIncrement) {}
 
+    /// Sequences of different seeds or streams are independent.
+    Random(std::uint64_t seed, std::uint64_t stream)
+        : state_(mixed(mixed((seed + 1) * kIncrement) + stream * kIncrement)) {}
+
     std::uint32_t bits() {
         state_ += kIncrement;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-        return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
+        return static_cast<std::uint32_t>(mixed(state_) >> 32);
     }
 
     /// Uniform in [0, 1).
     float uniform() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
 
   private:
+    static std::uint64_t mixed(std::uint64_t z) {
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+        return z ^ (z >> 31);
+    }
+
     static constexpr std::uint64_t kIncrement = 0x9e3779b97f4a7c15ull;
     std::uint64_t state_;
 };

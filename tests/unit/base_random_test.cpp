@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <set>
 
 #include "host/base/random.h"
 
@@ -13,6 +15,18 @@ TEST(Random, IsSplitMix64) {
     EXPECT_EQ(random.bits(), 0xe220a839u);
     EXPECT_EQ(random.bits(), 0x6e789e6au);
     EXPECT_EQ(random.bits(), 0x06c45d18u);
+}
+
+TEST(Random, StreamsDoNotOverlap) {
+    std::set<std::uint32_t> numbers;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        for (std::uint64_t stream = 0; stream < 8; ++stream) {
+            Random random(seed, stream);
+            for (int i = 0; i < 8; ++i)
+                numbers.insert(random.bits());
+        }
+    }
+    EXPECT_EQ(numbers.size(), 512u);  // two of 512 random numbers are equal with a probability of 3e-5
 }
 
 TEST(Random, UniformNumbersAreTheUpperBits) {

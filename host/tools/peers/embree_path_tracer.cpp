@@ -47,7 +47,7 @@ class PathTracer {
 
     vec3 pixel(std::uint32_t pixel) const {
         vec3 sum(0.0f);
-        Random random((std::uint64_t{pixel} << 32) + settings_.seed);
+        Random random(settings_.seed, pixel);
         for (std::uint32_t s = 0; s < settings_.spp; ++s)
             sum += sample(pixel, random);
         return sum / static_cast<float>(settings_.spp);
