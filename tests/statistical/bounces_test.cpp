@@ -5,6 +5,7 @@
 #include "host/render/render.h"
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
+#include "tests/support/scene_builder.h"
 
 // The statistics of the last bounces, with which the renderer warns of a limit that cuts light off. Renders
 // that differ only in the limit have identical paths up to it, so their means differ by one bounce.
