@@ -153,14 +153,17 @@ TEST(Determinism, PathsOfManyCrossingsAreWhole) {
     const RenderOutput reference = render(device(), panes, single);
     EXPECT_EQ(reference.statistics.dispatchesCutShort, 0u);
     EXPECT_EQ(reference.film.totalSamples(), 10u * 10u * 9u);
+    // Later versions have no limit. On a busy machine the first dispatches may seem slow, so that the next
+    // are too small to reach it.
+    const bool limited = device().info().driver.find("llvmpipe Mesa 22.") != std::string::npos;
     for (const RenderControl& control : {RenderControl{}, parts}) {
-        const RenderOutput whole = render(device(), panes, control);
-        if (device().info().driver.find("llvmpipe Mesa 22.") !=
-            std::string::npos) {  // later ones have no such limit
-            EXPECT_GT(whole.statistics.dispatchesCutShort, 0u)
-                << "the case no longer reaches lavapipe's limit";
+        std::uint64_t cutShort = 0;
+        for (int attempt = 0; attempt < 5 && (attempt == 0 || (limited && cutShort == 0)); ++attempt) {
+            const RenderOutput whole = render(device(), panes, control);
+            cutShort += whole.statistics.dispatchesCutShort;
+            EXPECT_TRUE(sameBits(whole.film, reference.film));
         }
-        EXPECT_TRUE(sameBits(whole.film, reference.film));
+        EXPECT_TRUE(!limited || cutShort > 0) << "the case no longer reaches lavapipe's limit";
     }
 }
 

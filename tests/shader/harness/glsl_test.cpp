@@ -13,6 +13,7 @@
 #include <set>
 #include <thread>
 
+#include "host/base/hash.h"
 #include "host/vk/commands.h"
 #include "tests/shader/harness/compiler.h"
 #include "tests/shader/harness/kernel_run.h"
@@ -63,12 +64,11 @@ Kernels& kernels() {
     return instance;
 }
 
-/// FNV-1a: the random inputs of a test depend on its name alone.
-std::uint32_t hashOf(std::string_view text) {
-    std::uint32_t hash = 2166136261u;
-    for (const char c : text)
-        hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-    return hash;
+/// The random inputs of a test depend on its name alone.
+std::uint32_t seedOf(std::string_view test) {
+    Hasher hasher;
+    hasher.add(test);
+    return static_cast<std::uint32_t>(hasher.digest());
 }
 
 template <typename T>
@@ -83,7 +83,7 @@ void dispatchAll(const Kernel& kernel, const GlslFile::Test& test, std::uint32_t
                  std::uint32_t noted = 0) {
     for (std::uint32_t first = 0; first < test.count; first += kInvocationsPerDispatch) {
         const std::uint32_t count = std::min(kInvocationsPerDispatch, test.count - first);
-        const shared::TestDispatch push{first, test.count, hashOf(test.name) ^ randomSeed(), pass, noted};
+        const shared::TestDispatch push{first, test.count, seedOf(test.name) ^ randomSeed(), pass, noted};
         runOnce(device(), test.name, [&](const Commands& commands) {
             kernel.dispatch(commands, push, (count + shared::kTestWorkgroup - 1) / shared::kTestWorkgroup);
         });
