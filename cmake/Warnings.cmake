@@ -12,7 +12,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 target_compile_options(duolux_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
-  -Wdouble-promotion -Wimplicit-fallthrough $<$<BOOL:${DUOLUX_WERROR}>:-Werror> ${DUOLUX_FALSE_WARNINGS})
+  -Wdouble-promotion -Wimplicit-fallthrough -Werror=switch $<$<BOOL:${DUOLUX_WERROR}>:-Werror> ${DUOLUX_FALSE_WARNINGS})
 
 # Assertions name files relative to the root, so the program does not reveal where it was built.
 add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)

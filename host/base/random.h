@@ -9,12 +9,13 @@
 namespace duolux {
 
 /// Random numbers of the host: SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number
-/// Generators", 2014). The sequence of seed s + n is that of seed s without its first n numbers.
+/// Generators", 2014).
 class Random {
   public:
+    /// For a fixed seed: the sequence of seed s + n is that of seed s without its first n numbers.
     explicit Random(std::uint64_t seed) : state_(seed * kIncrement) {}
 
-    /// Sequences of different seeds or streams are independent.
+    /// For many sequences: those of other seeds, of other streams and of the other constructor are unrelated.
     Random(std::uint64_t seed, std::uint64_t stream)
         : state_(mixed(mixed((seed + 1) * kIncrement) + stream * kIncrement)) {}
 

@@ -147,8 +147,8 @@ FilmOrigin originFrom(const nlohmann::json& header) {
     return origin;
 }
 
-/// The fields in which the origins of films that are added must not differ, by their names and as text; what
-/// tells most comes first.
+/// The fields that must be equal in all films of a sum, as pairs of name and text. A mismatch is reported by
+/// the first field that differs, so the size and the reflectance come first.
 std::vector<std::pair<std::string, std::string>> identityOf(const FilmOrigin& origin) {
     const RenderSettings& settings = origin.settings;
     std::vector<std::pair<std::string, std::string>> identity{
