@@ -138,10 +138,11 @@ void addBenchCommand(CLI::App& app) {
                      fmt::format("Scene files (.json, .obj, .ply), or built-in: {}",
                                  fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
-    addRepeatable(*command, "--only", options->only,
-                  fmt::format("Only benchmarks whose names contain this text; may be repeated. Names are "
-                              "SCENE/ and one of {}",
-                              kBenchmarkNames));
+    addRepeatable(
+        *command, "--only", options->only,
+        fmt::format(
+            "Only benchmarks whose names contain this text; may be repeated. Names are SCENE/ and one of {}",
+            kBenchmarkNames));
     addDeviceOption(*command, options->device);
     addThreadsOption(*command);
     addTuningOptions(*command, options->tuning);

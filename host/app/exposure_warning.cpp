@@ -39,12 +39,10 @@ std::string describe(const Scene& scene, const DarkReason& reason) {
             return "the camera sees only emitters, and they emit no visible light";
         case Darkness::kNoBounces:
             return "with 0 bounces only emitters are visible, and the surfaces in view emit no visible "
-                   "light; "
-                   "try more --bounces";
+                   "light; try more --bounces";
         case Darkness::kNothingVisible:
             return "no reflectance turns the emitted light into visible light; this needs entries in the "
-                   "second "
-                   "row of \"opaque\"";
+                   "second row of \"opaque\"";
         case Darkness::kBlackSurfaces:
             return fmt::format("the surfaces in view (material \"{}\") are black and reflect nothing",
                                reason.material);
@@ -56,15 +54,13 @@ std::string describe(const Scene& scene, const DarkReason& reason) {
         case Darkness::kFacingAway:
             return fmt::format(
                 "the emitters (material \"{}\") face away from the surfaces in view: they emit from their "
-                "front "
-                "side, on which corners are counter-clockwise; turn them, set \"sides\": \"both\" in their "
-                "emission in a JSON scene, or add --lamp",
+                "front side, on which corners are counter-clockwise; turn them, set \"sides\": \"both\" in "
+                "their emission in a JSON scene, or add --lamp",
                 reason.material);
         case Darkness::kEnclosed:
             return fmt::format(
                 "no light reaches what the camera sees (material \"{}\"): other surfaces block the light of "
-                "the "
-                "emitters; try --lamp, or {} {}",
+                "the emitters; try --lamp, or {} {}",
                 reason.material, position, lookAt);
         case Darkness::kUnknown:
             break;

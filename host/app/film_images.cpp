@@ -26,8 +26,7 @@ ImageOptions filmImageOptions(const FilmOrigin& origin, const Film& film, float 
 std::string describeOverflow(const Film& film) {
     return fmt::format(
         "some radiance exceeds the film's range and was clamped to {:.3g}, at least 2^28 times the mean of "
-        "the "
-        "first samples",
+        "the first samples",
         film.largestRadiance());
 }
 

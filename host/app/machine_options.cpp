@@ -46,10 +46,10 @@ void addDeviceOption(CLI::App& command, std::string& device) {
 
 void addThreadsOption(CLI::App& command) {
     command
-        .add_option_function<unsigned>("--threads", chooseThreads,
-                                       "Threads of the program and of the software driver, also more than "
-                                       "cores (default, and 0: one for "
-                                       "each core); images are identical for every number")
+        .add_option_function<unsigned>(
+            "--threads", chooseThreads,
+            "Threads of the program and of the software driver, also more than cores (default, and 0: one "
+            "for each core); images are identical for every number")
         ->type_name("N")
         ->check(wholeNumber(0, 1024));
 }

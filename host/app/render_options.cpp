@@ -34,8 +34,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
             ->check(oneOf(names));
     command
         .add_option("--blend", options.blend,
-                    "Scene-wide reflectance: any point T,O of the square between the presets "
-                    "(local 1,0; global 0,1; shadowless 1,1; one-bounce 0,0)")
+                    "Scene-wide reflectance: any point T,O of the square between the presets (local 1,0; "
+                    "global 0,1; shadowless 1,1; one-bounce 0,0)")
         ->type_name("T,O")
         ->excludes(preset);
     command.add_option("--spp", options.spp, "Samples per pixel (default: the scene's, or 64)")
@@ -45,8 +45,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("WIDTHxHEIGHT");
     command
         .add_option("--bounces", options.bounces,
-                    "Largest number of scattering events on a path (default: the scene's, or 16; 4 "
-                    "where light may grow with every bounce, as in shadowless)")
+                    "Largest number of scattering events on a path (default: the scene's, or 16; 4 where "
+                    "light may grow with every bounce, as in shadowless)")
         ->type_name("N")
         ->check(wholeNumber(0, 65535));
     addViewOptions(command, options.view);
@@ -66,11 +66,10 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("NAME")
         ->check(oneOf({"sobol", "independent"}));
     command
-        .add_option(
-            "--direct-light", options.directLight,
-            "Direct light in the path tracer: sampled; closed-form: without noise, only for diffuse, flat "
-            "surfaces where nothing blocks emitters (local, shadowless); auto (default): closed-form for "
-            "local, otherwise sampled")
+        .add_option("--direct-light", options.directLight,
+                    "Direct light in the path tracer: sampled; closed-form: without noise, only for diffuse, "
+                    "flat surfaces where nothing blocks emitters (local, shadowless); auto (default): "
+                    "closed-form for local, otherwise sampled")
         ->type_name("NAME")
         ->check(oneOf({"auto", "sampled", "closed-form"}));
     addDeviceOption(command, options.device);
@@ -83,10 +82,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("SECONDS")
         ->check(between(1e-3, 1e9));
     command
-        .add_option(
-            "--sample-range", options.sampleRange,
-            "Trace only samples A to B-1 of every pixel (or the corresponding light paths): a part for "
-            "'duolux merge', with --checkpoint")
+        .add_option("--sample-range", options.sampleRange,
+                    "Trace only samples A to B-1 of every pixel (or the corresponding light paths): a part "
+                    "for 'duolux merge', with --checkpoint")
         ->type_name("A:B")
         ->check(notEmpty());
     command
@@ -97,8 +95,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--resume", options.resume,
                     "Resume from a checkpoint of the same scene and settings, up to the end of its range of "
-                    "samples or "
-                    "to --spp")
+                    "samples or to --spp")
         ->type_name("FILE")
         ->check(notEmpty());
     command

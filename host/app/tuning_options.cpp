@@ -36,17 +36,15 @@ TuningChoice TuningOptions::choice() const {
 
 void addTuningOptions(CLI::App& command, TuningOptions& options) {
     command
-        .add_option(
-            "--layout", options.layout,
-            "How rays find triangles: by a tree in texel buffers (default on CPUs) or in storage buffers "
-            "(default on GPUs), or by the device's ray queries, see 'duolux devices'")
+        .add_option("--layout", options.layout,
+                    "How rays find triangles: by a tree in texel buffers (default on CPUs) or in storage "
+                    "buffers (default on GPUs), or by the device's ray queries, see 'duolux devices'")
         ->type_name("NAME")
         ->check(oneOf(namesOf(kLayouts)));
     command
-        .add_option(
-            "--kernel", options.kernel,
-            "Lanes whose rays are done get new ones (refilling: default) or wait for the others (plain: "
-            "always with ray queries)")
+        .add_option("--kernel", options.kernel,
+                    "Lanes whose rays are done get new ones (refilling: default) or wait for the others "
+                    "(plain: always with ray queries)")
         ->type_name("NAME")
         ->check(oneOf(namesOf(kKernels)));
 }

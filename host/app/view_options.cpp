@@ -86,11 +86,11 @@ void addViewOptions(CLI::App& command, ViewOptions& options) {
         ->group(kGroup);
     CLI::Option* lamp =
         command
-            .add_flag("--lamp", options.lamp,
-                      fmt::format(
-                          "Add a lamp beside the camera (default: if nothing emits light, or so little that "
-                          "white surfaces would reflect less than {} % of white on average)",
-                          kDarkPercent))
+            .add_flag(
+                "--lamp", options.lamp,
+                fmt::format("Add a lamp beside the camera (default: if nothing emits light, or so little "
+                            "that white surfaces would reflect less than {} % of white on average)",
+                            kDarkPercent))
             ->group(kGroup);
     command.add_flag("--no-lamp", options.noLamp, "Never add a lamp")->excludes(lamp)->group(kGroup);
 }

@@ -96,8 +96,8 @@ Layout layoutThatFits(const DeviceInfo& device, Layout chosen, const TuningChoic
     if (bytes > largestBuffer(device, other)) return chosen;
     if (!choice.layout) return other;
     throw DeviceError(fmt::format(
-        "layout {}: a buffer of this scene takes {} bytes, more than the {} that {} ({}) can bind so; "
-        "layout {} can hold it",
+        "layout {}: a buffer of this scene takes {} bytes, more than the {} that {} ({}) can bind so; layout "
+        "{} can hold it",
         nameOf(chosen), bytes, largestBuffer(device, chosen), device.name, device.driver, nameOf(other)));
 }
 

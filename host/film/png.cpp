@@ -147,11 +147,12 @@ std::string essentialChunks(std::string_view bytes, const std::string& file) {
         const std::uint64_t length = number(bytes.substr(at));
         const std::size_t left = bytes.size() - at - kAround;
         if (length > left) {
-            throw InputError(file, "",
-                             fmt::format("is not a readable PNG image: a chunk at byte {} claims {} bytes "
-                                         "where {} are left",
-                                         at, length, left),
-                             "expected a complete file");
+            throw InputError(
+                file, "",
+                fmt::format(
+                    "is not a readable PNG image: a chunk at byte {} claims {} bytes where {} are left", at,
+                    length, left),
+                "expected a complete file");
         }
         const std::string_view chunk = bytes.substr(at, kAround + static_cast<std::size_t>(length));
         if (std::ranges::find(kEssential, type) != kEssential.end()) out += chunk;

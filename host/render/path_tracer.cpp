@@ -38,9 +38,9 @@ class PathTracer {
         const DirectLight wanted = context_.control.directLight;
         if (wanted == DirectLight::kClosedForm && !applies) {
             throw UsageError(
-                fmt::format("{}: direct light has no closed form in this scene; it requires diffuse "
-                            "surfaces that cast no shadows (`local`, `shadowless`), flat normals, and 1 to "
-                            "{} emitters (triangles, point lights)",
+                fmt::format("{}: direct light has no closed form in this scene; it requires diffuse surfaces "
+                            "that cast no shadows (`local`, `shadowless`), flat normals, and 1 to {} "
+                            "emitters (triangles, point lights)",
                             context_.scene.source.string(), kMostClosedFormEmitters));
         }
         // With several bounces, direct light contributes little of the noise: on the Cornell box,

@@ -86,8 +86,7 @@ void RenderContext::summarise() {
 void RenderContext::failCutShort() const {
     throw DeviceError(
         fmt::format("tracing paths failed on {} ({}): the driver ended the loops of a single path; render "
-                    "with fewer bounces "
-                    "than {}, or with fewer surfaces that light passes through",
+                    "with fewer bounces than {}, or with fewer surfaces that light passes through",
                     device.info().name, device.info().driver, settings.bounces));
 }
 

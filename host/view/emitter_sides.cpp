@@ -93,8 +93,7 @@ std::vector<Warning> emitterWarnings(const Surface& surface, const Camera& camer
         }
         std::string text = fmt::format(
             "emitters (material {}) {}: they emit only from their front sides, on which the corners are "
-            "counter-clockwise; turn them, or use \"sides\": \"both\" in the emission of a JSON "
-            "scene",
+            "counter-clockwise; turn them, or use \"sides\": \"both\" in the emission of a JSON scene",
             inQuotes(surface.scene().materials[material].name), what);
         warnings.emplace_back(std::move(text), away ? WarningKind::kEmittersFaceAway : WarningKind::kOther);
     }

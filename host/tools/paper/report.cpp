@@ -45,8 +45,8 @@ std::vector<Table> errorTables(const ExperimentSetup& setup, const Experiment& e
             Table& table = byKind[{cell.estimator, cell.lighting}];
             if (table.head.empty()) {
                 table.caption = fmt::format(
-                    "{} of `local`, {}, against OpenGL, {}, in %: **all pixels** (away from "
-                    "silhouettes / at them)",
+                    "{} of `local`, {}, against OpenGL, {}, in %: **all pixels** (away from silhouettes / at "
+                    "them)",
                     metric.name, cell.estimator, cell.lighting);
                 table.head.emplace_back("lights");
                 for (const std::uint32_t spp : setup.spp)
@@ -90,8 +90,8 @@ Table residualTable(const Experiment& experiment) {
 Table speedTable(const Experiment& experiment) {
     Table table{
         "Seconds for 64 samples per pixel (`local`) and 64 passes with five lights (OpenGL, fixed function), "
-        "of drawing "
-        "alone; medians of runs in turns; in brackets the whole program, with loading, uploading and writing",
+        "of drawing alone; medians of runs in turns; in brackets the whole program, with loading, uploading "
+        "and writing",
         {"triangles", "`local`, closed form", "`local`, sampled", "OpenGL", "OpenGL / closed form",
          "OpenGL / sampled"},
         {}};
