@@ -7,10 +7,10 @@ file(WRITE ${CPP} "// Generated from SPIR-V; do not edit.
 
 namespace duolux::spirv {
 namespace {
-constexpr std::uint32_t kWords[] = {
+constexpr std::uint32_t ${NAME}Words[] = {
 ${words}};
 }  // namespace
 extern const std::span<const std::uint32_t> ${NAME};
-const std::span<const std::uint32_t> ${NAME}{kWords};
+const std::span<const std::uint32_t> ${NAME}{${NAME}Words};
 }  // namespace duolux::spirv
 ")

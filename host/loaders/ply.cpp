@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t kMostCorners = std::numeric_limits<std::int32_t>::max();
 
 /// Loads one file.
 class PlyLoader {
@@ -82,7 +82,7 @@ class PlyLoader {
                                  ? "expected a mesh; point clouds and triangle strips are not supported"
                                  : "expected a mesh");
         }
-        if (element->count > kMost) {
+        if (element->count > kMostCorners) {
             throw InputError(path_.string(), fmt::format("element {}", name), "is too large",
                              "expected fewer than 2^31 vertices and faces");
         }
@@ -236,7 +236,7 @@ class PlyLoader {
             if (!isGood && !bad) bad = index;
             corners_.push_back(isGood ? static_cast<std::uint32_t>(index) : 0);
         }
-        if (corners_.size() > kMost) {
+        if (corners_.size() > kMostCorners) {
             throw InputError(path_.string(), "element face", "is too large",
                              "expected fewer than 2^31 corners of faces");
         }

@@ -7,13 +7,14 @@ namespace duolux {
 
 namespace {
 
-constexpr int kStep = 40;                  // factor between the quanta of two looks, as a power of two
-constexpr int kLeast = -120, kMost = 100;  // exponents of quanta; their inverses are floats as well
-constexpr double kFewestQuanta = 256.0;    // sum; fewer quanta do not determine the brightness of the image
-constexpr double kDarkest = 0x1p-13;       // a darker component counts down to this fraction of the other
+constexpr int kStep = 40;  // factor between the quanta of two looks, as a power of two
+constexpr int kLeastExponent = -120,
+              kMostExponent = 100;       // exponents of quanta; their inverses are floats as well
+constexpr double kFewestQuanta = 256.0;  // sum; fewer quanta do not determine the brightness of the image
+constexpr double kDarkest = 0x1p-13;     // a darker component counts down to this fraction of the other
 
 float powerOfTwo(int exponent) {
-    return std::ldexp(1.0f, std::clamp(exponent, kLeast, kMost));
+    return std::ldexp(1.0f, std::clamp(exponent, kLeastExponent, kMostExponent));
 }
 
 int exponentOf(double value) {
@@ -24,14 +25,14 @@ int exponentOf(double value) {
 
 float findQuantum(double brightest, const std::function<FirstLook(float)>& look) {
     if (!(brightest > 0.0)) return powerOfTwo(-30);
-    int exponent = std::clamp(exponentOf(brightest) - 50, kLeast, kMost);
+    int exponent = std::clamp(exponentOf(brightest) - 50, kLeastExponent, kMostExponent);
     FirstLook shown = look(powerOfTwo(exponent));
-    while (shown.clamped && exponent + kStep <= kMost) {
+    while (shown.clamped && exponent + kStep <= kMostExponent) {
         exponent += kStep;
         shown = look(powerOfTwo(exponent));
     }
     while (!shown.clamped && std::max(shown.invisible, shown.visible) < kFewestQuanta &&
-           exponent - kStep >= kLeast) {
+           exponent - kStep >= kLeastExponent) {
         exponent -= kStep;
         shown = look(powerOfTwo(exponent));
     }

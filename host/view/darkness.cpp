@@ -13,7 +13,7 @@ namespace duolux {
 namespace {
 
 constexpr float kFewest = 0.02f;  // fraction of the image
-constexpr int kPaths = 4;
+constexpr int kPathsPerWhite = 4;
 
 bool any(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
@@ -108,7 +108,7 @@ class Inspection {
         for (std::size_t i = 0; i < seen_.size(); ++i) {
             SurfacePoint point = seen_[i];
             if (otherSide) point = {point.position, -point.normal, point.triangle, !point.front};
-            sum += illumination.onWhite(point, static_cast<std::uint32_t>(i + 1), kPaths);
+            sum += illumination.onWhite(point, static_cast<std::uint32_t>(i + 1), kPathsPerWhite);
         }
         return sum / static_cast<float>(seen_.size());
     }

@@ -8,7 +8,7 @@ namespace duolux {
 
 namespace {
 
-constexpr int kPaths = 6;
+constexpr int kRaysPerPlace = 6;
 
 SurfacePoint otherSide(const SurfacePoint& point) {
     return {point.position, -point.normal, point.triangle, !point.front};
@@ -18,7 +18,7 @@ SurfacePoint otherSide(const SurfacePoint& point) {
 int escapes(const Surface& surface, const SurfacePoint& point, Random& random) {
     constexpr int kSegments = 32;
     int count = 0;
-    for (int path = 0; path < kPaths; ++path) {
+    for (int path = 0; path < kRaysPerPlace; ++path) {
         SurfacePoint at = point;
         for (int i = 0; i < kSegments; ++i) {
             const glm::vec3 direction = cosineDirection(at.normal, random);
@@ -38,11 +38,11 @@ int escapes(const Surface& surface, const SurfacePoint& point, Random& random) {
 
 float facedPart(const Surface& surface, const SurfacePoint& point, Random& random) {
     int hits = 0;
-    for (int i = 0; i < kPaths; ++i) {
+    for (int i = 0; i < kRaysPerPlace; ++i) {
         const glm::vec3 origin = point.position + kOffset * point.normal;
         hits += surface.firstHit(origin, cosineDirection(point.normal, random), point.triangle) ? 1 : 0;
     }
-    return static_cast<float>(hits) / kPaths;
+    return static_cast<float>(hits) / kRaysPerPlace;
 }
 
 bool isInsideOut(const Surface& surface, const SurfacePoint& front, std::uint32_t seed) {

@@ -9,6 +9,7 @@
 #include "host/device_scene/emitter_table.h"
 #include "host/scene/emitters.h"
 #include "tests/shader/density.h"
+#include "tests/shader/inputs.h"
 #include "tests/shader/mirror_types.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
@@ -104,14 +105,6 @@ std::vector<EmitterPoint> pointsOn(const Records& records, const std::vector<glm
         static_cast<std::uint32_t>(records.size()), words);
 }
 
-std::vector<glm::uvec2> randomWords(std::size_t count, std::uint32_t seed) {
-    std::mt19937 engine(seed);
-    std::vector<glm::uvec2> us(count);
-    for (glm::uvec2& u : us)
-        u = {static_cast<std::uint32_t>(engine()), static_cast<std::uint32_t>(engine())};
-    return us;
-}
-
 constexpr double kAlpha = 1e-4;  // for each family below
 
 // Chi-square over the emitters, with 52 or more points per emitter on average; 4 tests, joint level 1e-4.
@@ -121,7 +114,7 @@ TEST(ChooseEmitter, PicksEmittersByPower) {
         const std::vector<Emitter> expectedOf = emittersOf(scene);
         const EmitterTable table = tableOf(scene);
         ASSERT_EQ(table.records.size(), count);
-        const auto choices = chooseFrom(table.records, randomWords(count > 1000 ? 1 << 20 : 1 << 17, 5));
+        const auto choices = chooseFrom(table.records, randomWords2(count > 1000 ? 1 << 20 : 1 << 17, 5));
         std::vector<double> observed(count), expected(count);
         for (const EmitterChoice& c : choices) {
             ASSERT_LT(c.index, count);
@@ -146,7 +139,7 @@ TEST(ChooseEmitter, PicksEmittersByPower) {
 TEST(ChooseEmitter, EveryBitDecides) {
     const std::uint32_t count = 20011;
     const Records records = tableOf(randomEmitters(count, 18)).records;
-    std::vector<glm::uvec2> us = randomWords(1 << 18, 6);
+    std::vector<glm::uvec2> us = randomWords2(1 << 18, 6);
     for (std::uint32_t i = 0; i < count; ++i) {
         // The last word that keeps emitter i and the first that does not, or the nearest words that exist.
         const std::uint64_t edge =
@@ -216,7 +209,7 @@ TEST(ChooseEmitter, ThresholdsByHand) {
 // square. Three tests, joint level 1e-4.
 TEST(ChooseEmitter, PointsAreUniformOnTheTriangle) {
     const Records records = stackedEmitters({{0.3f, 1}, {1.0f, 0}});
-    const std::vector<glm::uvec2> us = randomWords(1 << 20, 7);
+    const std::vector<glm::uvec2> us = randomWords2(1 << 20, 7);
     const auto choices = chooseFrom(records, us);
     const auto samples = pointsOn(records, us);
     std::array<std::vector<glm::dvec2>, 3> points;
@@ -238,7 +231,7 @@ TEST(ChooseEmitter, PointsLieOnTheTriangleWithTheNormalOfItsFront) {
     const Scene scene = randomEmitters(500, 19);
     const std::vector<Emitter> expected = emittersOf(scene);
     const Records records = tableOf(scene).records;
-    const std::vector<glm::uvec2> words = randomWords(20000, 8);
+    const std::vector<glm::uvec2> words = randomWords2(20000, 8);
     const auto choices = chooseFrom(records, words);
     const auto points = pointsOn(records, words);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -270,7 +263,7 @@ TEST(EmittedFlux, AddsUpToThePowerOfTheEmitters) {
     for (const Emitter& e : emittersOf(scene))
         power += e.power;
     const Records records = tableOf(scene).records;
-    const auto samples = chooseFrom(records, randomWords(1 << 18, 9));
+    const auto samples = chooseFrom(records, randomWords2(1 << 18, 9));
     std::vector<float> density, sides;
     for (const EmitterChoice& c : samples) {
         density.push_back(records[c.index].density);
@@ -374,7 +367,7 @@ TEST(EmitterOracles, Samples) {
     // The choice is exact on the device and in both oracles, because it uses only a word and one product. The
     // remainder of a random number within a small threshold loses digits.
     std::vector<std::uint32_t> counts(20000, 500u);
-    EXPECT_ORACLES(library, chooseEmitter, (Budget{2, 4e-6}), counts, randomWords(20000, 10));
+    EXPECT_ORACLES(library, chooseEmitter, (Budget{2, 4e-6}), counts, randomWords2(20000, 10));
 }
 
 }  // namespace

@@ -27,6 +27,14 @@ inline std::vector<std::uint32_t> randomWords(std::size_t n, std::uint32_t seed 
     return words;
 }
 
+inline std::vector<glm::uvec2> randomWords2(std::size_t n, std::uint32_t seed = 1) {
+    const std::vector<std::uint32_t> words = randomWords(2 * n, seed);
+    std::vector<glm::uvec2> vectors;
+    for (std::size_t i = 0; i < words.size(); i += 2)
+        vectors.emplace_back(words[i], words[i + 1]);
+    return vectors;
+}
+
 inline std::vector<glm::uvec4> randomWords4(std::size_t n, std::uint32_t seed = 1) {
     const std::vector<std::uint32_t> words = randomWords(4 * n, seed);
     std::vector<glm::uvec4> vectors;

@@ -18,6 +18,10 @@ Reflectance preset(const char* name) {
     return *found;
 }
 
+reference::ChannelLight lightOf(const Emission& emission) {
+    return reference::channelsOf(emission.invisible, emission.visible);
+}
+
 Material filter(const std::string& name, const ReflectanceMatrix& transparent) {
     Material material;
     material.name = name;

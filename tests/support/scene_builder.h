@@ -13,6 +13,9 @@ ReflectanceMatrix matrix(float m00, float m01, float m10, float m11);
 
 Reflectance preset(const char* name);
 
+/// Emitted radiance per channel.
+reference::ChannelLight lightOf(const Emission& emission);
+
 /// Absorbs, does not emit, and transmits by `transparent`.
 Material filter(const std::string& name, const ReflectanceMatrix& transparent);
 

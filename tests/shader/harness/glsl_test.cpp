@@ -24,9 +24,6 @@ namespace duolux::test {
 
 namespace {
 
-/// A larger dispatch could run longer than a driver's watchdog allows.
-constexpr std::uint32_t kInvocationsPerDispatch = 1u << 20;
-
 /// The kernels of test files; each is compiled once.
 class Kernels {
   public:

@@ -10,6 +10,9 @@
 
 namespace duolux::test {
 
+/// A larger dispatch could run longer than a driver's watchdog allows.
+constexpr std::uint32_t kInvocationsPerDispatch = 1u << 20;
+
 /// A kernel of the harness, with the given bindings and, if coverage is measured, the buffer of its counters.
 Kernel harnessKernel(std::string_view name, std::span<const std::uint32_t> spirv,
                      std::vector<Binding> bindings, std::span<const Specialization> constants,

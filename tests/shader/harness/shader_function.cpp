@@ -16,9 +16,6 @@ namespace duolux::test {
 
 namespace {
 
-/// Limits the duration of a dispatch.
-constexpr std::size_t kInvocationsPerDispatch = std::size_t{1} << 20;
-
 const std::vector<std::uint32_t>& compiled(const std::string& glsl) {
     static std::map<std::string, std::vector<std::uint32_t>> kernels;
     auto found = kernels.find(glsl);

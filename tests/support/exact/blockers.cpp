@@ -13,8 +13,8 @@ namespace duolux::test {
 
 namespace {
 
-const Emission kGlow{{3.0f, 2.0f, 5.0f}, {0.5f, 1.0f, 4.0f}, Sides::kFront};
-const glm::vec3 kEye{0.95f, 0.2f, 0.25f};  // passes beside the panes
+const Emission kPanelGlow{{3.0f, 2.0f, 5.0f}, {0.5f, 1.0f, 4.0f}, Sides::kFront};
+const glm::vec3 kBesidePanes{0.95f, 0.2f, 0.25f};  // passes beside the panes
 
 const ReflectanceMatrix kAmber{
     {0.9f, 0.1f, 0.5f}, {0.2f, 0.6f, 0.3f}, {0.1f, 0.8f, 0.4f}, {0.3f, 0.2f, 0.7f}};
@@ -34,7 +34,7 @@ struct Pane {
     Material material = filter("pane", {});
 };
 
-struct Setup {
+struct PaneSetup {
     Reflectance receiver = preset("local");
     Reflectance scene = preset("local");
     std::vector<Pane> panes;
@@ -53,17 +53,17 @@ void addPane(SceneBuilder& builder, const Pane& pane) {
     }
 }
 
-ExactCase blocked(std::string name, const Setup& setup) {
+ExactCase blocked(std::string name, const PaneSetup& setup) {
     ReceiverScene::Receiver receiver;
     receiver.reflectance = setup.receiver;
-    ReceiverScene scene(receiver, kEye);
+    ReceiverScene scene(receiver, kBesidePanes);
     scene.builder().scene.reflectance = setup.scene;
     // In two parts at the plane x = 0, where the edge of a half pane lies as seen from the origin.
     const std::vector<Vec3> left = downwardRectangle(-0.8, 0.0, -0.5, 0.9, 2),
                             whole = downwardRectangle(-0.8, 0.6, -0.5, 0.9, 2);
     const double leftFactor = lambertPolygon(Vec3(0.0), Vec3(0, 1, 0), left);
     const double rightFactor = lambertPolygon(Vec3(0.0), Vec3(0, 1, 0), whole) - leftFactor;
-    scene.emitter(whole, kGlow, preset("local"));
+    scene.emitter(whole, kPanelGlow, preset("local"));
     ChannelMatrix throughLeft = reference::identityPerChannel(), throughRight = throughLeft;
     for (const Pane& pane : setup.panes) {
         addPane(scene.builder(), pane);
@@ -71,7 +71,7 @@ ExactCase blocked(std::string name, const Setup& setup) {
         if (!pane.half) throughLeft = throughLeft * t;
         throughRight = throughRight * t;
     }
-    const ChannelLight light = reference::channelsOf(kGlow.invisible, kGlow.visible);
+    const ChannelLight light = lightOf(kPanelGlow);
     return scene.finish(
         std::move(name), 1,
         scene.reflected(leftFactor * (throughLeft * light) + rightFactor * (throughRight * light)));
@@ -80,7 +80,7 @@ ExactCase blocked(std::string name, const Setup& setup) {
 }  // namespace
 
 ExactCase stackedPanesCase(int count) {
-    Setup setup{{kOpaque, {}}, preset("global"), {}};
+    PaneSetup setup{{kOpaque, {}}, preset("global"), {}};
     for (int i = 0; i < count; ++i) {
         const float height = 0.7f + 1.2f * static_cast<float>(i) / static_cast<float>(count);
         setup.panes.push_back({matrix(0.98f, 0.01f, 0.02f, 0.97f), height});
@@ -90,7 +90,7 @@ ExactCase stackedPanesCase(int count) {
 
 std::vector<ExactCase> blockerCases() {
     std::vector<ExactCase> cases;
-    const auto add = [&](const char* name, const Setup& setup) { cases.push_back(blocked(name, setup)); };
+    const auto add = [&](const char* name, const PaneSetup& setup) { cases.push_back(blocked(name, setup)); };
     const Reflectance mixing{kOpaque, {}};
 
     // A pane of the scene's own reflectance: absent in `local`, t each in blend (t, 0).
@@ -123,7 +123,7 @@ std::vector<ExactCase> blockerCases() {
     add("BlockerTealAmberTeal", {mixing, preset("global"), {{kTeal, 0.5f}, {kAmber, 0.7f}, {kTeal, 1.6f}}});
     add("BlockerHalfAmberTeal", {mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f, true}}});
     // Panes listed from the top: the order of the triangles must not matter.
-    Setup shuffled{mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f}}};
+    PaneSetup shuffled{mixing, preset("global"), {{kAmber, 0.7f}, {kTeal, 1.3f}}};
     ExactCase reversed = blocked("BlockerListedFromTop", shuffled);
     std::reverse(reversed.scene.geometry.triangles.begin(), reversed.scene.geometry.triangles.end());
     std::reverse(reversed.scene.geometry.materials.begin(), reversed.scene.geometry.materials.end());

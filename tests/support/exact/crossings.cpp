@@ -24,13 +24,9 @@ Material pane(const char* name, const ReflectanceMatrix& transparent, const Emis
     return material;
 }
 
-const Emission kGlow[] = {{{1.0f, 2.0f, 3.0f}, {0.5f, 0.25f, 0.75f}, Sides::kFront},
-                          {{0.2f, 0.4f, 0.1f}, {4.0f, 1.0f, 2.0f}, Sides::kFront},
-                          {{5.0f, 3.0f, 0.0f}, {0.0f, 7.0f, 6.0f}, Sides::kFront}};
-
-ChannelLight light(const Emission& emission) {
-    return reference::channelsOf(emission.invisible, emission.visible);
-}
+const Emission kShellGlow[] = {{{1.0f, 2.0f, 3.0f}, {0.5f, 0.25f, 0.75f}, Sides::kFront},
+                               {{0.2f, 0.4f, 0.1f}, {4.0f, 1.0f, 2.0f}, Sides::kFront},
+                               {{5.0f, 3.0f, 0.0f}, {0.0f, 7.0f, 6.0f}, Sides::kFront}};
 
 LoadedScene view(SceneBuilder builder, glm::vec3 position, float vfov, std::uint32_t bounces) {
     LoadedScene& scene = builder.scene;
@@ -46,12 +42,12 @@ LoadedScene view(SceneBuilder builder, glm::vec3 position, float vfov, std::uint
 ExactCase fromOutside(const char* name, const ReflectanceMatrix& outer, const ReflectanceMatrix& inner,
                       Sides sides) {
     SceneBuilder builder;
-    Emission a = kGlow[0], b = kGlow[1];
+    Emission a = kShellGlow[0], b = kShellGlow[1];
     a.sides = b.sides = sides;
     builder.sphere(glm::vec3(0.0f), 1.0f, 1, Facing::kInward, builder.add(pane("inner", inner, b)));
     builder.sphere(glm::vec3(0.0f), 2.0f, 1, Facing::kInward, builder.add(pane("outer", outer, a)));
     const ChannelMatrix ta = reference::channelsOf(outer), tb = reference::channelsOf(inner);
-    const ChannelLight ea = light(a), eb = light(b);
+    const ChannelLight ea = lightOf(a), eb = lightOf(b);
     const ChannelLight beyond = eb + tb * ea;
     const ChannelLight expected = sides == Sides::kFront ? ta * (tb * beyond) : ea + ta * (eb + tb * beyond);
     return {name, view(builder, {0, 0, 8}, 6.0f, 0), uniformImage(16, 16, expected)};
@@ -64,15 +60,18 @@ ExactCase fromCentre(const char* name, const ReflectanceMatrix& first, const Ref
     const ReflectanceMatrix opaque{
         {0.3f, 0.5f, 0.2f}, {0.5f, 0.1f, 0.4f}, {0.7f, 0.2f, 0.6f}, {0.1f, 0.4f, 0.3f}};
     SceneBuilder builder;
-    Material inner = pane("inner", first, kGlow[0]);
+    Material inner = pane("inner", first, kShellGlow[0]);
     inner.baseColor = albedo;
     inner.sides = Sides::kFront;
     inner.reflectance->opaque = opaque;
     builder.sphere(glm::vec3(0.0f), 1.0f, 1, Facing::kInward, builder.add(inner));
-    builder.sphere(glm::vec3(0.0f), 1.5f, 1, Facing::kInward, builder.add(pane("middle", second, kGlow[1])));
-    builder.sphere(glm::vec3(0.0f), 2.5f, 1, Facing::kInward, builder.add(pane("outer", kThird, kGlow[2])));
+    builder.sphere(glm::vec3(0.0f), 1.5f, 1, Facing::kInward,
+                   builder.add(pane("middle", second, kShellGlow[1])));
+    builder.sphere(glm::vec3(0.0f), 2.5f, 1, Facing::kInward,
+                   builder.add(pane("outer", kThird, kShellGlow[2])));
     const ChannelMatrix t1 = reference::channelsOf(first), t2 = reference::channelsOf(second);
-    const ChannelLight source = light(kGlow[0]) + t1 * (light(kGlow[1]) + t2 * light(kGlow[2]));
+    const ChannelLight source =
+        lightOf(kShellGlow[0]) + t1 * (lightOf(kShellGlow[1]) + t2 * lightOf(kShellGlow[2]));
     const ChannelMatrix scatter = scaled(albedo, reference::channelsOf(opaque));
     return {name, view(builder, glm::vec3(0.1f), 70.0f, bounces),
             uniformImage(16, 16, enclosureRadiance(scatter, source, bounces))};

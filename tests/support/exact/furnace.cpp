@@ -17,13 +17,13 @@ namespace {
 
 const ChannelLight kLight = {{{1.0, 0.5}, {0.8, 1.6}, {0.3, 1.0}}};
 const double kKept[3] = {0.5, 0.75, 0.25};  ///< q per channel
-constexpr double kAlbedo = 0.5;
+constexpr double kFurnaceAlbedo = 0.5;
 
 /// The material of that furnace for a transmittance; `lean`, 0..1, divides O between its columns.
 Material furnaceMaterial(const char* name, const ReflectanceMatrix& transparent, double lean) {
     Material material;
     material.name = name;
-    material.baseColor = glm::vec3(static_cast<float>(kAlbedo));
+    material.baseColor = glm::vec3(static_cast<float>(kFurnaceAlbedo));
     material.reflectance = Reflectance{{}, transparent};
     ReflectanceMatrix& o = material.reflectance->opaque;
     material.emission.sides = Sides::kBoth;
@@ -31,7 +31,7 @@ Material furnaceMaterial(const char* name, const ReflectanceMatrix& transparent,
     for (int c = 0; c < 3; ++c) {
         const auto i = static_cast<std::size_t>(c);
         const reference::Vec2 withheld = kLight[i] - t[i] * kLight[i];
-        const reference::Vec2 scattered = kKept[c] * withheld / kAlbedo;
+        const reference::Vec2 scattered = kKept[c] * withheld / kFurnaceAlbedo;
         o.m00[c] = static_cast<float>(lean * scattered.x / kLight[i].x);
         o.m01[c] = static_cast<float>((1.0 - lean) * scattered.x / kLight[i].y);
         o.m10[c] = static_cast<float>((1.0 - lean) * scattered.y / kLight[i].x);

@@ -15,10 +15,6 @@ namespace {
 
 const Emission kGlow{{3.0f, 2.0f, 5.0f}, {0.5f, 0.0f, 0.25f}, Sides::kFront};
 
-ChannelLight light(const Emission& emission) {
-    return reference::channelsOf(emission.invisible, emission.visible);
-}
-
 ReceiverScene::Receiver receiver(glm::vec3 normal) {
     ReceiverScene::Receiver r;
     r.normal = normal;
@@ -43,7 +39,7 @@ ExactCase lambert(std::string name, const Setup& setup) {
     const Vec3 normal = glm::normalize(Vec3(setup.receiver.normal));
     const double factor = setup.factor ? *setup.factor : lambertPolygon(Vec3(0.0), normal, setup.polygon);
     // `local` has no second bounce, however many are allowed.
-    return scene.finish(std::move(name), 4, scene.reflected(factor * light(kGlow)));
+    return scene.finish(std::move(name), 4, scene.reflected(factor * lightOf(kGlow)));
 }
 
 ExactCase twoEmitters() {
@@ -55,8 +51,8 @@ ExactCase twoEmitters() {
     scene.emitter(large, dim, preset("local"));
     scene.emitter(small, bright, preset("local"));
     const Vec3 up(0, 1, 0);
-    const ChannelLight irradiance = lambertPolygon(Vec3(0.0), up, large) * light(dim) +
-                                    lambertPolygon(Vec3(0.0), up, small) * light(bright);
+    const ChannelLight irradiance = lambertPolygon(Vec3(0.0), up, large) * lightOf(dim) +
+                                    lambertPolygon(Vec3(0.0), up, small) * lightOf(bright);
     return scene.finish("LambertTwoEmitters", 1, scene.reflected(irradiance));
 }
 
@@ -98,7 +94,7 @@ ExactCase floorImage(const Floor& setup) {
     scene.settings.width = scene.settings.height = kSize;
     scene.settings.bounces = 1;
     const ChannelMatrix scatter = scaled(floor.baseColor, reference::channelsOf(setup.reflectance.opaque));
-    const ChannelLight seen = (1.0 / std::numbers::pi) * (up * scatter * down * light(lamp.emission));
+    const ChannelLight seen = (1.0 / std::numbers::pi) * (up * scatter * down * lightOf(lamp.emission));
 
     // Midpoint rule over each pixel's footprint.
     constexpr int kSteps = 24;

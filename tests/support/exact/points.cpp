@@ -20,7 +20,7 @@ const Point kRight{{2.0, 0.5, -0.25}, {20.0f, 40.0f, 1.0f}, {0.0f, 8.0f, 2.0f}};
 const Point kBelow{{0.0, -1.0, 0.0}, {100.0f, 100.0f, 100.0f}, {1.0f, 1.0f, 1.0f}};
 
 // Low, but above the receiver.
-const glm::vec3 kEye{0.9f, 0.3f, 0.25f};
+const glm::vec3 kBesideLights{0.9f, 0.3f, 0.25f};
 
 ChannelLight irradiance(const Point& point, const Vec3& normal) {
     const double squared = glm::dot(point.position, point.position);
@@ -33,7 +33,7 @@ ExactCase lit(std::string name, const Reflectance& reflectance, const std::vecto
     ReceiverScene::Receiver receiver;
     receiver.normal = normal;
     receiver.reflectance = reflectance;
-    ReceiverScene scene(receiver, kEye);
+    ReceiverScene scene(receiver, kBesideLights);
     ChannelLight sum = reference::channelsOf(glm::vec3(0.0f), glm::vec3(0.0f));
     for (const Point& point : points) {
         scene.builder().scene.pointEmitters.push_back(
@@ -65,15 +65,14 @@ std::vector<ExactCase> pointCases() {
     receiver.reflectance = preset("global");
     const Emission glow{{1.0f, 2.0f, 3.0f}, {0.0f, 0.0f, 0.0f}, Sides::kFront};
     const std::vector<Vec3> square = downwardRectangle(-1, 1, -3, -2, 2);
-    ReceiverScene both(receiver, kEye);
+    ReceiverScene both(receiver, kBesideLights);
     both.emitter(square, glow, preset("global"));
     both.builder().scene.pointEmitters.push_back({glm::vec3(kLeft.position), kLeft.invisible, kLeft.visible});
     const Vec3 up(0, 1, 0);
     cases.push_back(both.finish(
         "PointAndRectangle", 1,
-        both.reflected(irradiance(kLeft, up) + lambertPolygon(Vec3(0.0), up, square) *
-                                                   reference::channelsOf(glow.invisible, glow.visible))));
-    ReceiverScene shaded(receiver, kEye);
+        both.reflected(irradiance(kLeft, up) + lambertPolygon(Vec3(0.0), up, square) * lightOf(glow))));
+    ReceiverScene shaded(receiver, kBesideLights);
     SceneBuilder& builder = shaded.builder();
     const std::uint32_t pane = builder.add(filter("pane", matrix(0.5f, 0, 0, 0.25f)));
     builder.quad({-3, 1.5f, -3}, {-3, 1.5f, 3}, {3, 1.5f, 3}, {3, 1.5f, -3}, pane);

@@ -17,16 +17,16 @@ target_compile_options(duolux_warnings INTERFACE
 # Assertions name files relative to the root, so the program does not reveal where it was built.
 add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 
-# duolux_library(NAME SOURCES ... LINK ... [PRIVATE_LINK ...] [PRECOMPILE ...]): one library per folder of host/, with
-# includes relative to the root. PRECOMPILE: its precompiled headers, by default those of duolux_base.
+# CLI11 compiles its validators into every source that includes it. Command lines and most tests compute little, so low
+# optimisation suffices for them in a release build.
+add_library(duolux_quick INTERFACE)
+target_compile_options(duolux_quick INTERFACE $<$<CONFIG:Release>:-O1>)
+
+# duolux_library(NAME SOURCES ... LINK ... [PRIVATE_LINK ...]): one library per folder of host/, with includes relative to
+# the root.
 function(duolux_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK} $<BUILD_INTERFACE:duolux_warnings>)
-  if(ARG_PRECOMPILE)
-    target_precompile_headers(${name} PRIVATE ${ARG_PRECOMPILE})
-  else()
-    target_precompile_headers(${name} REUSE_FROM duolux_base)
-  endif()
 endfunction()
