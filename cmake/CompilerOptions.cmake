@@ -22,6 +22,9 @@ add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 add_library(duolux_quick INTERFACE)
 target_compile_options(duolux_quick INTERFACE $<$<CONFIG:Release>:-O1>)
 
+# For builds that compile several sources at once (CMAKE_UNITY_BUILD).
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+
 # duolux_library(NAME SOURCES ... LINK ... [PRIVATE_LINK ...]): one library per folder of host/, with includes relative to
 # the root.
 function(duolux_library name)

@@ -31,13 +31,7 @@ enum class Oddity {
     kCount
 };
 
-struct Description {
-    Oddity kind;
-    const char* what;
-    const char* consequence;
-};
-
-constexpr Description kDescriptions[] = {
+constexpr OddityText<Oddity> kMtlOddities[] = {
     {Oddity::kBeforeMaterial, "a statement before any newmtl", "ignored"},
     {Oddity::kUnnamed, "newmtl without a name", "what follows it is ignored"},
     {Oddity::kColour, "a colour that is not finite", "read as if it were absent"},
@@ -166,7 +160,7 @@ class MtlReader {
     }
 
     void warn() {
-        for (const auto& [kind, what, consequence] : kDescriptions)
+        for (const auto& [kind, what, consequence] : kMtlOddities)
             warn(kind, what, consequence);
         warn(Oddity::kDefinedAgain, fmt::format("material {} is defined again", inQuotes(definedAgain_)),
              "the first one counts");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstring>
 
 #include "host/base/printable.h"
@@ -11,37 +10,24 @@ namespace duolux {
 
 namespace {
 
-struct Description {
-    ObjOddity kind;
-    const char* what;
-    const char* consequence;
-};
-
-constexpr std::array kDescriptions{
-    Description{ObjOddity::kShortFace, "a face of fewer than 3 corners", "left out"},
-    Description{ObjOddity::kBadFace, "a face with a vertex index that is 0, out of range or not a number",
-                "left out"},
-    Description{ObjOddity::kUnusedVertex, "a vertex that is not three finite numbers, or too large",
-                "no face uses it"},
-    Description{ObjOddity::kExtraNumbers, "more numbers than the statement has", "the last ones are ignored"},
-    Description{ObjOddity::kExtraWords, "extra values that are not finite numbers", "ignored"},
-    Description{ObjOddity::kNormal, "a normal that is not three finite numbers",
-                "triangles that name it are flat"},
-    Description{ObjOddity::kNormalIndex, "a normal index that is 0 or out of range",
-                "such triangles are flat"},
-    Description{ObjOddity::kTexture, "a texture coordinate that is not one to three finite numbers",
-                "it is not used"},
-    Description{ObjOddity::kTextureIndex, "a texture coordinate index that is 0 or out of range",
-                "it is not used"},
-    Description{ObjOddity::kTrailingSlash, "a corner that ends in \"/\"", "read without it"},
-    Description{ObjOddity::kCornerRest, "a corner with more than v/vt/vn, as in 1.0 or 1/1/1/1",
-                "the rest is ignored"},
-    Description{ObjOddity::kSmoothing, "a smoothing group that is neither a number nor \"off\"",
-                "\"on\" is read as group 1, anything else as off"},
-    Description{ObjOddity::kMaterialName, "usemtl without a name", "its faces are grey 0.8"},
-    Description{ObjOddity::kLibraryName, "mtllib without a name", "ignored"},
-    Description{ObjOddity::kVertexColour, "a vertex with a colour", "vertex colours are not used"},
-    Description{ObjOddity::kVertexWeight, "a vertex with a weight w other than 1", "w is not used"},
+constexpr OddityText<ObjOddity> kObjOddities[] = {
+    {ObjOddity::kShortFace, "a face of fewer than 3 corners", "left out"},
+    {ObjOddity::kBadFace, "a face with a vertex index that is 0, out of range or not a number", "left out"},
+    {ObjOddity::kUnusedVertex, "a vertex that is not three finite numbers, or too large", "no face uses it"},
+    {ObjOddity::kExtraNumbers, "more numbers than the statement has", "the last ones are ignored"},
+    {ObjOddity::kExtraWords, "extra values that are not finite numbers", "ignored"},
+    {ObjOddity::kNormal, "a normal that is not three finite numbers", "triangles that name it are flat"},
+    {ObjOddity::kNormalIndex, "a normal index that is 0 or out of range", "such triangles are flat"},
+    {ObjOddity::kTexture, "a texture coordinate that is not one to three finite numbers", "it is not used"},
+    {ObjOddity::kTextureIndex, "a texture coordinate index that is 0 or out of range", "it is not used"},
+    {ObjOddity::kTrailingSlash, "a corner that ends in \"/\"", "read without it"},
+    {ObjOddity::kCornerRest, "a corner with more than v/vt/vn, as in 1.0 or 1/1/1/1", "the rest is ignored"},
+    {ObjOddity::kSmoothing, "a smoothing group that is neither a number nor \"off\"",
+     "\"on\" is read as group 1, anything else as off"},
+    {ObjOddity::kMaterialName, "usemtl without a name", "its faces are grey 0.8"},
+    {ObjOddity::kLibraryName, "mtllib without a name", "ignored"},
+    {ObjOddity::kVertexColour, "a vertex with a colour", "vertex colours are not used"},
+    {ObjOddity::kVertexWeight, "a vertex with a weight w other than 1", "w is not used"},
 };
 
 }  // namespace
@@ -103,7 +89,7 @@ void warnOfOddities(const SourceText& text, const Tally<ObjOddity>& oddities,
                                        inQuotes(firstWord(text.view().substr(unknown.first))), unknown.count,
                                        unknown.count == 1 ? " is" : "s are"));
     }
-    for (const auto& [kind, what, consequence] : kDescriptions) {
+    for (const auto& [kind, what, consequence] : kObjOddities) {
         const auto& [count, first] = oddities[kind];
         if (count == 0) continue;
         const std::string more = count == 1 ? "" : fmt::format(" (and {} more)", count - 1);

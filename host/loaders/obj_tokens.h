@@ -3,16 +3,11 @@
 #include <glm/glm.hpp>
 #include <string_view>
 
+#include "host/loaders/source_text.h"
+
 namespace duolux {
 
 // The words of OBJ statements. The text ends with '\n', which terminates every scan.
-
-inline bool isBlank(char c) {
-    return c == ' ' || c == '\t';
-}
-inline bool isLineEnd(char c) {
-    return c == '\n' || c == '\r';
-}
 
 /// The word that begins at this position.
 std::string_view tokenAt(const char* at);

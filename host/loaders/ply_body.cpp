@@ -15,13 +15,6 @@ namespace duolux {
 
 namespace {
 
-bool isBlank(char c) {
-    return c == ' ' || c == '\t';
-}
-bool isLineEnd(char c) {
-    return c == '\n' || c == '\r';
-}
-
 template <typename T>
 double readAs(const char* at, bool swap) {
     std::array<char, sizeof(T)> bytes;

@@ -6,17 +6,13 @@
 #include <algorithm>
 
 #include "host/base/printable.h"
+#include "host/loaders/tally.h"
 
 namespace duolux {
 
 namespace {
 
-struct Description {
-    PlyOddity kind;
-    const char* what;
-    const char* consequence;
-};
-constexpr Description kDescriptions[] = {
+constexpr OddityText<PlyOddity> kPlyOddities[] = {
     {PlyOddity::kShortFace, "a face of fewer than 3 corners", "left out"},
     {PlyOddity::kBadFace, "a face with a vertex that is not in the file", "left out"},
     {PlyOddity::kUnusedVertex, "a vertex that is not finite or too large", "no face uses it"},
@@ -34,7 +30,7 @@ void PlyOddities::noteUnused(const PlyElement& element, const PlyProperty& prope
 void PlyOddities::warn(const std::filesystem::path& path, const PlyHeader& header,
                        std::vector<std::string>& warnings) const {
     const std::string file = path.string();
-    for (const auto& [kind, what, consequence] : kDescriptions) {
+    for (const auto& [kind, what, consequence] : kPlyOddities) {
         const auto& [number, first] = found_[static_cast<std::size_t>(kind)];
         if (number == 0) continue;
         warnings.push_back(fmt::format("{}: {}: {}{}: {}", file, first, what,

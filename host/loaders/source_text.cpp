@@ -18,8 +18,8 @@ namespace duolux {
 
 namespace {
 
-bool isBlank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+bool isSpace(char c) {
+    return isBlank(c) || isLineEnd(c);
 }
 
 /// On old systems, a carriage return alone ends a line.
@@ -103,7 +103,7 @@ std::vector<std::size_t> joinContinuedLines(std::string& bytes) {
         const std::size_t lineEnd = std::min(bytes.find_first_not_of(" \t\r", at + 1), bytes.size());
         if (lineEnd < bytes.size() && bytes[lineEnd] != '\n') continue;
         lines.moveTo(at);
-        const bool endsWord = at > 0 && !isBlank(bytes[at - 1]);
+        const bool endsWord = at > 0 && !isSpace(bytes[at - 1]);
         if (lines.inComment() || (lines.holdsNames() && endsWord)) continue;
         const std::size_t end = std::min(lineEnd + 1, bytes.size());
         std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(at),
@@ -143,21 +143,21 @@ InputError SourceText::error(const TextProblem& problem) const {
 }
 
 std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && isBlank(text.front()))
+    while (!text.empty() && isSpace(text.front()))
         text.remove_prefix(1);
-    while (!text.empty() && isBlank(text.back()))
+    while (!text.empty() && isSpace(text.back()))
         text.remove_suffix(1);
     return text;
 }
 
 std::string_view firstWord(std::string_view text) {
-    const auto end = std::find_if(text.begin(), text.end(), isBlank);
+    const auto end = std::find_if(text.begin(), text.end(), isSpace);
     return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
 std::string_view withoutComment(std::string_view text) {
     for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1)) {
-        if (at == 0 || isBlank(text[at - 1])) return trimmed(text.substr(0, at));
+        if (at == 0 || isSpace(text[at - 1])) return trimmed(text.substr(0, at));
     }
     return trimmed(text);
 }
@@ -187,7 +187,7 @@ ReadNumber readNumber(const char* at, const char* end) {
     if (std::none_of(kNotFinite.begin(), kNotFinite.end(), [&](auto name) { return rest.starts_with(name); }))
         return {past, value};
     const char* word = past;
-    while (word != end && !isBlank(*word))
+    while (word != end && !isSpace(*word))
         ++word;
     return {word, std::numeric_limits<double>::quiet_NaN()};
 }

@@ -11,6 +11,13 @@
 
 namespace duolux {
 
+inline bool isBlank(char c) {
+    return c == ' ' || c == '\t';
+}
+inline bool isLineEnd(char c) {
+    return c == '\n' || c == '\r';
+}
+
 /// A problem in a text, and its position.
 struct TextProblem {
     std::size_t offset;  ///< bytes from the start of the text

@@ -11,6 +11,14 @@ enum class Reading {
     kStrict    ///< rejects them
 };
 
+/// How warnings name a kind of incorrect statement, and its consequence.
+template <typename Kind>
+struct OddityText {
+    Kind kind;
+    const char* what;
+    const char* consequence;
+};
+
 /// For each value of an enumeration (whose last value is kCount): the number of occurrences in a text, and
 /// the offset of the first.
 template <typename Kind>

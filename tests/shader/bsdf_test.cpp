@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "shaders/shared/material_layout.h"
 #include "tests/shader/density.h"
@@ -19,7 +19,6 @@ using mirror::single::Bsdf;
 using mirror::single::BsdfFrame;
 using mirror::single::BsdfSample;
 
-constexpr double kPi = glm::pi<double>();
 constexpr std::uint32_t kRadiance = 0, kImportance = 1;
 
 const ShaderLibrary& bsdf() {
@@ -51,7 +50,8 @@ std::vector<glm::vec3> sphere() {
     for (const glm::dvec2 u : unitSquare(512)) {
         const double z = 2.0 * u.x - 1.0;
         const double r = std::sqrt(1.0 - z * z);
-        directions.emplace_back(r * std::cos(2.0 * kPi * u.y), r * std::sin(2.0 * kPi * u.y), z);
+        directions.emplace_back(r * std::cos(2.0 * std::numbers::pi * u.y),
+                                r * std::sin(2.0 * std::numbers::pi * u.y), z);
     }
     return directions;
 }
@@ -65,7 +65,7 @@ glm::dvec4 integrals(const ShaderLibrary& library, const Bsdf& b, const glm::vec
                                      "0u), bsdfPdf(x0, x1, x2, x3, 0u));",
                                      b, kFlat, wo, directions))
         sum += glm::dvec4(v);
-    return sum * (4.0 * kPi / static_cast<double>(directions.size()));
+    return sum * (4.0 * std::numbers::pi / static_cast<double>(directions.size()));
 }
 
 /// The white furnace: a surface that absorbs nothing reflects everything, for every roughness and direction.
@@ -93,7 +93,7 @@ TEST(Bsdf, LossOfSingleScatteringIsItsIntegral) {
                  bsdf().evaluate<float>("result = x2.z > 0.0 ? ggxEvaluate(x0, x1, x2) * x2.z : 0.0;",
                                         roughness * roughness, wo, directions))
                 albedo += static_cast<double>(v);
-            albedo *= 4.0 * kPi / static_cast<double>(directions.size());
+            albedo *= 4.0 * std::numbers::pi / static_cast<double>(directions.size());
             EXPECT_NEAR(bsdf().call<float>("ggxLoss", roughness, wo.z).front(), 1.0 - albedo, 0.007)
                 << roughness << " " << wo.z;
         }
@@ -151,7 +151,7 @@ TEST(Bsdf, SamplesHaveTheirDensity) {
                 return mirror::twice::bsdfPdf(widen(c.bsdf), exact, glm::dvec3(wo),
                                               {r * std::cos(phi), r * std::sin(phi), z}, c.mode);
             };
-            const Rectangle domain{{0.0, -kPi}, {1.0, kPi}};
+            const Rectangle domain{{0.0, -std::numbers::pi}, {1.0, std::numbers::pi}};
             const double above = integrate(density, domain, 32);
             std::vector<glm::dvec2> points;
             for (const BsdfSample& s :

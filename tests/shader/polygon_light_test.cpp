@@ -21,12 +21,12 @@ const ShaderLibrary& polygonLight() {
 }
 
 /// A corner and the edges to the others, relative to the receiver, and the receiver's normal.
-struct Triangle {
+struct LightTriangle {
     glm::vec3 a, edge1, edge2, normal;
 };
 
 /// From its corners.
-Triangle cornered(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& normal) {
+LightTriangle cornered(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& normal) {
     return {a, b - a, c - a, normal};
 }
 
@@ -34,9 +34,9 @@ struct Columns {
     std::vector<glm::vec3> a, edge1, edge2, normal;
 };
 
-Columns columns(const std::vector<Triangle>& triangles) {
+Columns columns(const std::vector<LightTriangle>& triangles) {
     Columns out;
-    for (const Triangle& t : triangles) {
+    for (const LightTriangle& t : triangles) {
         out.a.push_back(t.a);
         out.edge1.push_back(t.edge1);
         out.edge2.push_back(t.edge2);
@@ -45,13 +45,13 @@ Columns columns(const std::vector<Triangle>& triangles) {
     return out;
 }
 
-std::vector<float> evaluate(const std::vector<Triangle>& triangles) {
+std::vector<float> evaluate(const std::vector<LightTriangle>& triangles) {
     const Columns in = columns(triangles);
     return polygonLight().call<float>("projectedSolidAngle", in.a, in.edge1, in.edge2, in.normal);
 }
 
 /// The same in double precision, by clipping the polygon.
-double exact(const Triangle& t) {
+double exact(const LightTriangle& t) {
     const Vec3 a(t.a);
     const std::array<Vec3, 3> corners{a, a + Vec3(t.edge1), a + Vec3(t.edge2)};
     return std::abs(lambertPolygon(Vec3(0.0), glm::normalize(Vec3(t.normal)), corners));
@@ -59,7 +59,7 @@ double exact(const Triangle& t) {
 
 /// The value for a square with sides as long as the triangle's longest edge, overhead and facing the
 /// receiver: an upper bound for oblique and thin triangles.
-double facing(const Triangle& t) {
+double facing(const LightTriangle& t) {
     const Vec3 edge1(t.edge1), edge2(t.edge2), middle = Vec3(t.a) + (edge1 + edge2) / 3.0;
     const double longest =
         std::max({glm::dot(edge1, edge1), glm::dot(edge2, edge2), glm::dot(edge2 - edge1, edge2 - edge1)});
@@ -76,8 +76,8 @@ class PolygonLight : public testing::Test {
         return glm::normalize(v);
     }
 
-    std::vector<Triangle> triangles(std::size_t count) {
-        std::vector<Triangle> out;
+    std::vector<LightTriangle> triangles(std::size_t count) {
+        std::vector<LightTriangle> out;
         for (std::size_t i = 0; i < count; ++i) {
             const float size = std::exp(4.0f * uniform_(engine_));
             const glm::vec3 centre = direction();
@@ -95,13 +95,13 @@ class PolygonLight : public testing::Test {
 };
 
 TEST_F(PolygonLight, TrianglesOfAllSizesAndHeightsMatchDoublePrecision) {
-    const std::vector<Triangle> inputs = triangles(20000);
+    const std::vector<LightTriangle> inputs = triangles(20000);
     const std::vector<float> results = evaluate(inputs);
     int above = 0;
     int cut = 0;
     Census census("projectedSolidAngle");
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const Triangle& t = inputs[i];
+        const LightTriangle& t = inputs[i];
         int corners = 0;
         for (const glm::vec3& corner : {t.a, t.a + t.edge1, t.a + t.edge2})
             corners += glm::dot(corner, t.normal) > 0.0f ? 1 : 0;
@@ -117,14 +117,14 @@ TEST_F(PolygonLight, TrianglesOfAllSizesAndHeightsMatchDoublePrecision) {
 // is relative if neither cosine is small; a small cosine has an absolute error from the rounding of the
 // corner's position.
 TEST_F(PolygonLight, SmallTrianglesKeepTheirDigits) {
-    std::vector<Triangle> inputs;
+    std::vector<LightTriangle> inputs;
     std::array<int, 3> cut{};  // by corners above the horizon: 1, 2, 3
     for (int exponent = 0; exponent <= 60; ++exponent) {
         const float size = std::pow(10.0f, -0.1f * static_cast<float>(exponent));
         for (int i = 0; i < 400; ++i) {
             const float distance = std::exp2(10.0f * uniform_(engine_));
-            Triangle t{distance * direction(), size * distance * direction(), size * distance * direction(),
-                       direction()};
+            LightTriangle t{distance * direction(), size * distance * direction(),
+                            size * distance * direction(), direction()};
             // Every second triangle is cut by the horizon.
             if (i % 2 == 0) {
                 const glm::vec3 inside = t.a + 0.4f * t.edge1 + 0.3f * t.edge2;
@@ -148,7 +148,7 @@ TEST_F(PolygonLight, SmallTrianglesKeepTheirDigits) {
 }
 
 TEST_F(PolygonLight, ScaleDoesNotMatter) {
-    std::vector<Triangle> inputs;
+    std::vector<LightTriangle> inputs;
     for (const float scale : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {
         inputs.push_back(cornered(scale * glm::vec3(-1, 2, -1), scale * glm::vec3(1, 2, -1),
                                   scale * glm::vec3(0, 2, 1), {0, 1, 0}));
@@ -163,7 +163,7 @@ TEST_F(PolygonLight, ScaleDoesNotMatter) {
 
 TEST_F(PolygonLight, LimitsByHand) {
     const glm::vec3 up(0, 1, 0);
-    const std::vector<Triangle> inputs{
+    const std::vector<LightTriangle> inputs{
         cornered({-1, -1, 0}, {1, -1, 0}, {0, -1, 1}, up),                // below the horizon
         cornered({-1, 0, -1}, {1, 0, -1}, {0, 0, 1}, up),                 // in the horizon
         cornered({-1e6f, 1, -1e6f}, {1e6f, 1, -1e6f}, {0, 1, 1e6f}, up),  // the whole sky: pi
@@ -182,7 +182,7 @@ TEST_F(PolygonLight, LimitsByHand) {
 // B-3 in Howell, "A Catalog of Radiation Heat Transfer Configuration Factors" (Hamilton and Morgan, NACA TN
 // 2836, 1952).
 TEST_F(PolygonLight, RectanglesOverheadHaveTheirConfigurationFactor) {
-    std::vector<Triangle> inputs;
+    std::vector<LightTriangle> inputs;
     std::vector<double> expected;
     for (const float a : {0.01f, 0.3f, 1.0f, 5.0f, 200.0f}) {
         for (const float b : {0.02f, 0.7f, 1.0f, 30.0f}) {
@@ -206,12 +206,12 @@ TEST_F(PolygonLight, RectanglesOverheadHaveTheirConfigurationFactor) {
 // The integral of cos cos' / d^2 over the area, by the midpoints of 200^2 cells. For triangles that the
 // horizon clips, this sum is less accurate.
 TEST_F(PolygonLight, SumsOverTheAreaAgree) {
-    std::vector<Triangle> inputs;
+    std::vector<LightTriangle> inputs;
     std::vector<double> expected;
     constexpr int kCells = 200;
     while (inputs.size() < 60) {
         const glm::vec3 centre = 2.0f * direction();
-        const Triangle t =
+        const LightTriangle t =
             cornered(centre + direction(), centre + direction(), centre + direction(), direction());
         const Vec3 a(t.a), e1(t.edge1), e2(t.edge2);
         const Vec3 across = glm::cross(e1, e2);  // its length: twice the area

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "tests/shader/density.h"
 #include "tests/shader/inputs.h"
@@ -16,8 +16,6 @@ const ShaderLibrary& warp() {
     static const ShaderLibrary library("shaders/lib/warp.glsl");
     return library;
 }
-
-constexpr double kPi = glm::pi<double>();
 
 /// A grid, and the corners, edges and diagonal of the square of numbers in [0, 1).
 std::vector<glm::vec2> squareWithEdges() {
@@ -36,8 +34,8 @@ TEST(Warp, CosineHemisphereHasItsDensity) {
     for (const glm::vec3 w : warp().call<glm::vec3>("cosineHemisphere", randomSquare(1 << 17)))
         points.emplace_back(w.z, std::atan2(w.y, w.x));
     expectDensity(
-        "cosine-hemisphere", points, {{0.0, -kPi}, {1.0, kPi}}, [](double z, double) { return z / kPi; },
-        1e-4);
+        "cosine-hemisphere", points, {{0.0, -std::numbers::pi}, {1.0, std::numbers::pi}},
+        [](double z, double) { return z / std::numbers::pi; }, 1e-4);
 }
 
 /// Over s = x + y and t = x / s, whose area element is that of (x, y) divided by s: density 2 per unit of
@@ -73,7 +71,7 @@ TEST(Warp, CosineHemisphereMatchesItsFormula) {
     for (std::size_t i = 0; i < us.size(); ++i) {
         const glm::dvec2 u(us[i]);
         const double theta = std::asin(std::sqrt(u.x));
-        const double phi = 2.0 * kPi * u.y;
+        const double phi = 2.0 * std::numbers::pi * u.y;
         const glm::dvec3 expected(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                                   std::cos(theta));
         ASSERT_LT(glm::length(glm::dvec3(ws[i]) - expected), 2e-6) << u.x << ' ' << u.y;
@@ -122,7 +120,7 @@ std::vector<Basis<glm::vec3>> bases(const std::vector<glm::vec3>& normals) {
 
 /// Over the whole sphere; near each axis, with components down to denormal numbers; on the seam n.z = 0 and
 /// -0.
-std::vector<glm::vec3> normals() {
+std::vector<glm::vec3> frameNormals() {
     std::vector<glm::vec3> ns = randomDirections(1 << 14);
     const std::vector<float> tiny = randomScales(3 * 1024, -149.0, -1.0);
     for (std::size_t i = 0; i < tiny.size(); ++i) {
@@ -149,7 +147,7 @@ std::vector<glm::vec3> normals() {
 /// Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012, with the change by Duff et al.,
 /// 2017). Apart from the rounding of n, the error is that of a few operations on numbers up to 1.
 TEST(Warp, BasisIsSpaceTurnedTheShortWay) {
-    const std::vector<glm::vec3> ns = normals();
+    const std::vector<glm::vec3> ns = frameNormals();
     const std::vector<Basis<glm::vec3>> frames = bases(ns);
     for (std::size_t i = 0; i < ns.size(); ++i) {
         const double side = ns[i].z < 0.0f ? -1.0 : 1.0;
@@ -165,7 +163,7 @@ TEST(WarpOracles, AllFunctions) {
     const std::vector<glm::vec2> us = squareWithEdges();
     EXPECT_ORACLES(warp(), cosineHemisphere, (Budget{2, 1e-6}), us);
     EXPECT_ORACLES(warp(), uniformTriangle, (Budget{1, 0}), us);
-    const std::vector<glm::vec3> ns = normals();
+    const std::vector<glm::vec3> ns = frameNormals();
     const auto by = [](auto function, auto n) {
         Basis<decltype(n)> basis;
         function(n, basis.tangent, basis.bitangent);
