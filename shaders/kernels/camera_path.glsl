@@ -2,12 +2,12 @@
 
 // A path in flight.
 struct Path {
-    uvec2 stream;            // pixel and sample
+    uvec2 stream;                  // pixel and sample
     ReflectanceMatrix importance;  // W on the segment, after all surfaces crossed so far
     Segment segment;
-    float bsdfPdf;           // density of the segment's direction, per steradian
-    uint scatterings;        // events before the segment
-    uint crossings;          // on the segment
+    float bsdfPdf;                 // density of the segment's direction, per steradian
+    uint scatterings;              // events before the segment
+    uint crossings;                // on the segment
     bool ended;
     ReflectanceMatrix scattered;   // W O at the chosen vertex of the segment
 };

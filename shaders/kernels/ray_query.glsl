@@ -22,7 +22,7 @@ struct Traversal {
     uint triangle;
     uint order;
     vec2 barycentric;
-    bool nodesLeft;  // the ray has not been traced yet
+    bool nodesLeft;      // the ray has not been traced yet
 };
 
 // Traverses all triangles if `root` is 0, otherwise the emitting triangles, of which `root` is the first.

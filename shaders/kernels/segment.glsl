@@ -7,8 +7,8 @@ struct SurfaceHit {
     uint materialIndex;
     Material material;
     SurfacePoint point;
-    bool front;          // the ray arrives at the triangle's front
-    float cosine;        // between the ray and the normal of the front
+    bool front;    // the ray arrives at the triangle's front
+    float cosine;  // between the ray and the normal of the front
 };
 
 // `crossings`: surfaces crossed on the segment before.

@@ -15,8 +15,8 @@ struct Triangle {
 
 struct TriangleHit {
     bool hit;
-    bool front;      // the ray comes from the side from which the corners are counter-clockwise
-    float t;         // distance in units of the direction's length
+    bool front;        // the ray comes from the side from which the corners are counter-clockwise
+    float t;           // distance in units of the direction's length
     vec2 barycentric;  // of v1 and v2
 };
 

@@ -8,14 +8,14 @@
 
 // A light path in flight.
 struct LightPath {
-    uvec2 stream;      // number of the light path (high, low)
-    Radiance2 flux;        // on the segment, after all surfaces crossed so far; W
-    float emitted;     // flux at the emitter, W: the reference of Russian roulette
+    uvec2 stream;         // number of the light path (high, low)
+    Radiance2 flux;       // on the segment, after all surfaces crossed so far; W
+    float emitted;        // flux at the emitter, W: the reference of Russian roulette
     Segment segment;
-    uint scatterings;  // events before the segment
-    uint crossings;    // on the segment
+    uint scatterings;     // events before the segment
+    uint crossings;       // on the segment
     bool ended;
-    Radiance2 scattered;   // O L at the chosen vertex of the segment, times shadingAdjoint
+    Radiance2 scattered;  // O L at the chosen vertex of the segment, times shadingAdjoint
 };
 
 // Radiant intensity that leaves a vertex of a light path on the side of its normal, by emission or by scattering
@@ -31,12 +31,12 @@ struct Connection {
     bool pending;
     Segment segment;
     float distance;
-    Radiance2 light;        // contribution to the pixel if no further surface is crossed
-    float roulette;     // uniform number of the connection's Russian roulette
-    float survival;     // probability of having survived so far
+    Radiance2 light;   // contribution to the pixel if no further surface is crossed
+    float roulette;    // uniform number of the connection's Russian roulette
+    float survival;    // probability of having survived so far
     uint pixel;
-    uint scatterings;   // scattering events on the path, for the statistics
-    uint dimension;     // of its random numbers
+    uint scatterings;  // scattering events on the path, for the statistics
+    uint dimension;    // of its random numbers
 };
 
 struct LaneSums {

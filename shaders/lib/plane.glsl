@@ -12,7 +12,7 @@ uvec4 fetchPlaneTexel(uint index);
 
 // dot(normal, x) = offset
 struct Plane {
-    vec3 normal;   // unit, on the triangle's front side
+    vec3 normal;  // unit, on the triangle's front side
     float offset;
 };
 

@@ -12,10 +12,10 @@ struct CameraRay {
 
 // How the camera sees a point of the scene.
 struct CameraConnection {
-    bool visible;      // within the image
-    uint pixel;        // row by row from the top left
-    vec3 direction;    // unit, from the point to the camera
-    float distance;    // from the point to the origin of the camera's ray
+    bool visible;    // within the image
+    uint pixel;      // row by row from the top left
+    vec3 direction;  // unit, from the point to the camera
+    float distance;  // from the point to the origin of the camera's ray
     // Contribution of flux through unit area at the point, facing the camera, to the mean radiance of the image (m^-2):
     // the importance W_e of the pixel (box filter, per unit of image area), divided by the number of pixels, times the
     // solid angle (or the area) of the image plane as seen from the point.

@@ -15,7 +15,7 @@ struct Emitter {
     vec3 v2;
     uint flags;
     float positionError;
-    uint triangle;        // as in DeviceEmitter
+    uint triangle;  // as in DeviceEmitter
     Radiance2 emission;
     float density;
 };
@@ -46,7 +46,7 @@ AliasEntry fetchAliasEntry(uint index) {
 // A point on an emitter.
 struct EmitterPoint {
     vec3 position;
-    vec3 normal;          // unit, on the front side
+    vec3 normal;  // unit, on the front side
     float positionError;
 };
 
@@ -70,8 +70,8 @@ struct EmittedRay {
 
 // What the camera sees of a point on an emitter.
 struct EmitterSeen {
-    SurfacePoint point;  // its normals are on the side that faces the camera
-    Radiance2 intensity; // emission divided by the density of the point, W sr^-1
+    SurfacePoint point;   // its normals are on the side that faces the camera
+    Radiance2 intensity;  // emission divided by the density of the point, W sr^-1
 };
 
 // The emitter of the triangle with this rank. A triangle that does not emit has a record without sides.
