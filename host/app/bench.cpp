@@ -17,6 +17,7 @@
 #include "host/cli/console.h"
 #include "host/cli/options.h"
 #include "host/cli/outputs.h"
+#include "host/scene/scene.h"
 #include "host/tools/bench/bench_report.h"
 #include "host/tools/bench/builtin_scenes.h"
 #include "host/tools/bench/suite.h"
@@ -162,7 +163,7 @@ void addBenchCommand(CLI::App& app) {
     command->add_option("--bounces", options->bounces, "Bounces of images; shadowless: at most 4")
         ->type_name("N")
         ->capture_default_str()
-        ->check(wholeNumber(0, 65535));
+        ->check(wholeNumber(0, RenderSettings::kMostBounces));
     command
         ->add_option("--json", options->json,
                      "Write all results as JSON to this file (-: standard output instead of the table)")

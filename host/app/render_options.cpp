@@ -48,7 +48,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                     "Largest number of scattering events on a path (default: the scene's, or 16; 4 where "
                     "light may grow with every bounce, as in shadowless)")
         ->type_name("N")
-        ->check(wholeNumber(0, 65535));
+        ->check(wholeNumber(0, RenderSettings::kMostBounces));
     addViewOptions(command, options.view);
     command.add_option("--seed", options.seed, "Seed of the random numbers (default: the scene's, or 1)")
         ->type_name("N")

@@ -12,38 +12,63 @@
 #include "host/vk/buffer.h"
 #include "host/vk/device.h"
 #include "host/vk/kernel.h"
+#include "shaders/shared/kernel_interface.h"
 
 namespace duolux {
 
 /// Scenes with more emitters use next-event estimation instead of the closed form.
 inline constexpr std::size_t kMostClosedFormEmitters = 16;
 
-/// A scene in device memory, in the records of shaders/shared.
-struct DeviceScene {
+/// The buffers of a scene, in the records of shaders/shared.
+struct SceneBuffers {
+    Buffer nodes;  ///< empty with Layout::kRayQuery
+    Buffer triangles, normals, colours, planes, materials, emitters;
+};
+
+/// Calls visit(binding, buffer) for every buffer: a further one does not compile until it is handled here.
+template <typename Visit>
+void forEachBuffer(const SceneBuffers& buffers, Visit&& visit) {
+    const auto& [nodes, triangles, normals, colours, planes, materials, emitters] = buffers;
+    visit(shared::kBindingNodes, nodes);
+    visit(shared::kBindingTriangles, triangles);
+    visit(shared::kBindingNormals, normals);
+    visit(shared::kBindingColours, colours);
+    visit(shared::kBindingPlanes, planes);
+    visit(shared::kBindingMaterials, materials);
+    visit(shared::kBindingEmitters, emitters);
+}
+
+/// What follows from materials, reflectances and emitters.
+struct LightTransport {
     TransportTraits traits;
-    TuningChoice choice;  ///< the caller's, from which `tuning` follows
-    Tuning tuning;
-    bool hasSmoothNormals = false;
-    bool hasVertexColours = false;
-    bool hasPlanes = false;  ///< distances are computed from stored planes, see SurfacePlanes
     /// Direct light has a closed form: nothing can block an emitter, surfaces are diffuse and flat, and there
     /// are so few emitters that evaluating the formula for each costs no more than sampling one.
     bool closedFormApplies = false;
     std::uint32_t emitterKinds = 0;    ///< sum of shared::kEmitterKind...
     std::uint32_t emitterChoices = 0;  ///< as in EmitterTable
-    std::uint32_t emitterRoot = 0;     ///< as in shared::PathParams
-    Bounds emitterBounds{};            ///< of the emitters, enlarged by more than the rounding error of a hit
-    double brightestEmission = 0.0;    ///< radiance
+    double brightestEmission = 0.0;    ///< as duolux::brightestEmission
+};
+
+/// A scene in device memory.
+struct DeviceScene {
+    LightTransport transport;
+    TuningChoice choice;  ///< the caller's, from which `tuning` follows
+    Tuning tuning;
+    bool hasSmoothNormals = false, hasVertexColours = false;
+    bool hasPlanes = false;         ///< distances are computed from stored planes, see SurfacePlanes
+    std::uint32_t emitterRoot = 0;  ///< as in shared::PathParams
+    Bounds emitterBounds{};  ///< of the emitting triangles, enlarged by more than the rounding error of a hit
     double buildSeconds = 0.0, uploadSeconds = 0.0;
 
-    Buffer nodes;  ///< empty with Layout::kRayQuery
-    Buffer triangles, normals, colours, materials, emitterRecords, planes;
+    SceneBuffers buffers;
     std::optional<AccelerationStructure> structure{};  ///< with Layout::kRayQuery
 
-    WideBvh tree;                         ///< over all triangles, on the host; empty with Layout::kRayQuery
-    std::vector<std::uint32_t> emitters;  ///< triangles that emit, ascending
+    WideBvh tree;  ///< over all triangles, on the host; empty with Layout::kRayQuery
+    std::vector<std::uint32_t> emittingTriangles;  ///< ascending
 
-    /// What the traversal needs.
+    /// What kernels bind of the scene.
+    std::vector<Binding> bindings() const;
+    /// The part of it that traversal needs.
     std::vector<Binding> treeBindings() const;
     std::uint64_t deviceBytes() const;
 };
@@ -63,7 +88,7 @@ DeviceScene uploadScene(const Device& device, const Scene& scene,
 /// through all surfaces (kTransparencyIdentity, which requires a tree over the emitters) before and after, or
 /// neither. Otherwise uploads all again: the tree over all triangles is kept on the host, and that over the
 /// emitters is built; with Layout::kRayQuery the driver builds its whole structure again. Throws as
-/// uploadScene.
+/// uploadScene; the device then has the scene of before.
 void updateScene(DeviceScene& deviceScene, const Device& device, const Scene& scene, Integrator integrator);
 
 }  // namespace duolux

@@ -86,16 +86,17 @@ CameraChoice readCamera(const JsonNode& node) {
 }
 
 void readFilm(const JsonNode& node, RenderSettings& render) {
-    constexpr std::uint32_t kLargestSize = 16384;
     node.expectKeys({"width", "height"});
-    if (const auto width = node.find("width")) render.width = width->integer(1, kLargestSize);
-    if (const auto height = node.find("height")) render.height = height->integer(1, kLargestSize);
+    if (const auto width = node.find("width")) render.width = width->integer(1, RenderSettings::kLargestSize);
+    if (const auto height = node.find("height"))
+        render.height = height->integer(1, RenderSettings::kLargestSize);
 }
 
 void readRender(const JsonNode& node, RenderSettings& render) {
     node.expectKeys({"spp", "bounces", "seed", "sampler", "integrator"});
-    if (const auto spp = node.find("spp")) render.spp = spp->integer(1, 1u << 24);
-    if (const auto bounces = node.find("bounces")) render.bounces = bounces->integer(0, 65535);
+    if (const auto spp = node.find("spp")) render.spp = spp->integer(1, RenderSettings::kMostSpp);
+    if (const auto bounces = node.find("bounces"))
+        render.bounces = bounces->integer(0, RenderSettings::kMostBounces);
     if (const auto seed = node.find("seed")) {
         render.seed = seed->integer(0, std::numeric_limits<std::uint32_t>::max());
     }

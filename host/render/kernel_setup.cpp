@@ -36,8 +36,8 @@ shared::PathParams makeParams(const RenderInputs& inputs) {
         kUndisplayedWeight;
     params.rowWeight = rows / (rows.x + rows.y);
     params.display = scene.display;
-    params.emitterCount = deviceScene.emitterChoices;
-    params.emittingTriangles = static_cast<std::uint32_t>(deviceScene.emitters.size());
+    params.emitterCount = deviceScene.transport.emitterChoices;
+    params.emittingTriangles = static_cast<std::uint32_t>(deviceScene.emittingTriangles.size());
     params.emitterRoot = deviceScene.emitterRoot;
     params.emitterLower = deviceScene.emitterBounds.lower;
     params.emitterUpper = deviceScene.emitterBounds.upper;
@@ -53,19 +53,14 @@ Buffer uploadParams(const RenderInputs& inputs) {
 }
 
 std::vector<Binding> sceneBindings(const DeviceScene& deviceScene, const Buffer& params) {
-    std::vector<Binding> bindings = deviceScene.treeBindings();
-    bindings.push_back({shared::kBindingNormals, &deviceScene.normals});
-    bindings.push_back({shared::kBindingColours, &deviceScene.colours});
-    bindings.push_back({shared::kBindingMaterials, &deviceScene.materials});
-    bindings.push_back({shared::kBindingEmitters, &deviceScene.emitterRecords});
+    std::vector<Binding> bindings = deviceScene.bindings();
     bindings.push_back({shared::kBindingParams, &params});
-    bindings.push_back({shared::kBindingPlanes, &deviceScene.planes});
     return bindings;
 }
 
 std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
     const auto& [device, deviceScene, scene, settings] = inputs;
-    const TransportTraits& traits = deviceScene.traits;
+    const TransportTraits& traits = deviceScene.transport.traits;
     const Tuning& tuning = deviceScene.tuning;
     return {{shared::kSpecWorkgroupSize, tuning.workgroupSize},
             {shared::kSpecLeaveTraversal, tuning.leaveTraversal},
@@ -79,7 +74,7 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
             {shared::kSpecVisibleCrosses, traits.visibleCrosses},
             {shared::kSpecOneReflectance, traits.oneReflectance},
             {shared::kSpecLobes, traits.lobes},
-            {shared::kSpecEmitterKinds, deviceScene.emitterKinds},
+            {shared::kSpecEmitterKinds, deviceScene.transport.emitterKinds},
             {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecVertexColours, deviceScene.hasVertexColours},
@@ -90,7 +85,7 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
 }
 
 std::uint32_t lanePaths(const DeviceScene& deviceScene) {
-    const bool crossing = deviceScene.traits.transparency == shared::kTransparencyGeneral;
+    const bool crossing = deviceScene.transport.traits.transparency == shared::kTransparencyGeneral;
     return crossing ? deviceScene.tuning.laneCrossingPaths : deviceScene.tuning.lanePaths;
 }
 

@@ -55,7 +55,7 @@ class LightTracer {
         RenderStatistics& statistics = context_.statistics;
         context_.begin();
         // Without emitters, all paths are dark.
-        if (context_.deviceScene.emitterChoices == 0) {
+        if (context_.deviceScene.transport.emitterChoices == 0) {
             context_.film.countLightPaths(context_.samplesTotal());
             statistics.samples = context_.samplesTotal();
         } else if (context_.control.resume == nullptr) {
@@ -82,7 +82,7 @@ class LightTracer {
     /// to be traced.
     float chooseQuantum(LightTracerKernel& kernel) {
         constexpr std::uint64_t kPaths = 4096;
-        return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
+        return findQuantum(context_.deviceScene.transport.brightestEmission, [&](float quantum) {
             FirstLook look;
             while (look.samples < kPaths) {
                 const std::uint32_t count = dispatchPaths(kernel, kPaths - look.samples);

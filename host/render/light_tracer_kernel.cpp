@@ -57,7 +57,8 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
 std::vector<Specialization> specialize(const RenderInputs& inputs, std::size_t bands,
                                        std::uint32_t bandPixels) {
     std::vector<Specialization> constants = sceneSpecialization(inputs);
-    constants.push_back({shared::kSpecCameraTransparency, inputs.deviceScene.traits.cameraTransparency});
+    constants.push_back(
+        {shared::kSpecCameraTransparency, inputs.deviceScene.transport.traits.cameraTransparency});
     constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
     constants.push_back({shared::kSpecBandPixels, bandPixels});
     return constants;

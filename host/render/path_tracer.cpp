@@ -34,7 +34,7 @@ class PathTracer {
 
   private:
     bool chooseClosedForm() const {
-        const bool applies = context_.deviceScene.closedFormApplies;
+        const bool applies = context_.deviceScene.transport.closedFormApplies;
         const DirectLight wanted = context_.control.directLight;
         if (wanted == DirectLight::kClosedForm && !applies) {
             throw UsageError(
@@ -45,7 +45,7 @@ class PathTracer {
         }
         // With several bounces, direct light contributes little of the noise: on the Cornell box,
         // `shadowless` in closed form has 7 % less variance and takes 10 % longer.
-        const bool pays = !context_.deviceScene.traits.invisibleScatters;
+        const bool pays = !context_.deviceScene.transport.traits.invisibleScatters;
         return applies && (wanted == DirectLight::kClosedForm || (pays && wanted == DirectLight::kAuto));
     }
 
@@ -92,7 +92,7 @@ class PathTracer {
         constexpr std::uint32_t kSamples = 4096;
         const std::uint32_t end = kernel.firstLookPixel() + kernel.lookPixels();
         const std::uint32_t wanted = std::min(PathTracerKernel::kMaxSamples, kSamples / kernel.lookPixels());
-        return findQuantum(context_.deviceScene.brightestEmission, [&](float quantum) {
+        return findQuantum(context_.deviceScene.transport.brightestEmission, [&](float quantum) {
             FirstLook sum;
             WorkRange range{kernel.firstLookPixel(), 0, 0, 1};
             while (range.firstSample < wanted) {

@@ -12,10 +12,10 @@ namespace {
 std::vector<Specialization> specialize(const RenderInputs& inputs, bool closedForm) {
     const DeviceScene& deviceScene = inputs.deviceScene;
     std::uint32_t directLight = closedForm ? shared::kDirectLightClosedForm : shared::kDirectLightSampled;
-    if (deviceScene.emitterChoices == 0) directLight = shared::kDirectLightNone;
+    if (deviceScene.transport.emitterChoices == 0) directLight = shared::kDirectLightNone;
     std::vector<Specialization> constants = sceneSpecialization(inputs);
     constants.push_back({shared::kSpecDirectLight, directLight});
-    constants.push_back({shared::kSpecHasEmitters, !deviceScene.emitters.empty()});
+    constants.push_back({shared::kSpecHasEmitters, !deviceScene.emittingTriangles.empty()});
     constants.push_back({shared::kSpecFilmLayers, inputs.settings.layers});
     return constants;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -13,6 +12,7 @@
 #include "host/base/memory.h"
 #include "host/render/context.h"
 #include "host/render/schedule.h"
+#include "host/scene/validate.h"
 
 namespace duolux {
 
@@ -141,21 +141,30 @@ void trace(RenderContext& context) {
 
 RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScene& deviceScene,
                             const RenderSettings& settings, const RenderControl& control) {
+    validate(settings);
     if (settings.layers != 0 && settings.integrator == Integrator::kLightTracer) {
         throw UsageError(
             fmt::format("{}: the light tracer traces no camera rays, from which layers are filled",
                         scene.source.string()));
     }
     const SampleRange range = control.samples.value_or(SampleRange{0, settings.spp});
-    if (range.begin >= range.end) {
-        throw UsageError(fmt::format("{}: the range of samples from {} to {} is empty", scene.source.string(),
-                                     range.begin, range.end));
+    if (range.begin >= range.end || range.end > RenderSettings::kMostSpp) {
+        throw UsageError(fmt::format("{}: the range of samples from {} to {} is {}", scene.source.string(),
+                                     range.begin, range.end,
+                                     range.begin >= range.end ? "empty" : "beyond the largest number, 2^24"));
     }
     RenderContext context{device, scene, settings, control, deviceScene, range, makeFilm(settings), {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;
-        assert(state.film.width() == settings.width && state.film.height() == settings.height);
-        assert(state.film.layers() == settings.layers);
+        if (state.film.width() != settings.width || state.film.height() != settings.height ||
+            state.film.layers() != settings.layers) {
+            throw UsageError(fmt::format(
+                "{}: the film to resume from has {}x{} pixels{}; expected {}x{} and the layers of "
+                "the settings",
+                scene.source.string(), state.film.width(), state.film.height(),
+                state.film.layers() == settings.layers ? "" : " and other layers", settings.width,
+                settings.height));
+        }
         context.film = state.film;
         context.samplesResumed = state.film.totalSamples() + state.film.lightPaths();
         context.lastBounce = state.lastBounceRadiance * static_cast<double>(context.samplesResumed);
@@ -166,7 +175,7 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
     statistics.tuning = context.deviceScene.tuning;
     statistics.buildSeconds = context.deviceScene.buildSeconds;
     statistics.uploadSeconds = context.deviceScene.uploadSeconds;
-    const std::uint32_t mostScatterings = context.deviceScene.traits.mostScatterings;
+    const std::uint32_t mostScatterings = context.deviceScene.transport.traits.mostScatterings;
     statistics.effectiveBounces = std::min(settings.bounces, mostScatterings);
     statistics.limitedByBounces = settings.bounces < mostScatterings;
     try {

@@ -14,16 +14,22 @@ namespace duolux {
 
 namespace {
 
-DeviceScene upload(const Device& device, const Scene& scene, Integrator integrator,
-                   const TuningChoice& tuning) {
-    validate(scene);
+/// Calls `prepare`, which builds trees and uploads; reports that memory has run out as MemoryError.
+template <typename Prepare>
+auto withinMemory(const Scene& scene, Prepare&& prepare) {
     try {
-        return uploadScene(device, scene, integrator, tuning);
+        return prepare();
     } catch (const std::bad_alloc&) {
         throw outOfMemory(fmt::format("{}: cannot build trees over {} triangles", scene.source.string(),
                                       scene.geometry.triangles.size()),
                           "expected fewer triangles, or more memory");
     }
+}
+
+DeviceScene upload(const Device& device, const Scene& scene, Integrator integrator,
+                   const TuningChoice& tuning) {
+    validate(scene);
+    return withinMemory(scene, [&] { return uploadScene(device, scene, integrator, tuning); });
 }
 
 }  // namespace
@@ -52,8 +58,10 @@ void Renderer::setPointEmitters(std::vector<PointEmitter> emitters) {
 
 RenderOutput Renderer::render(const RenderSettings& settings, const RenderControl& control) {
     validateExceptGeometry(scene_);
-    if (!upToDate_ || settings.integrator != integrator_)
-        updateScene(deviceScene_, device_, scene_, settings.integrator);
+    if (!upToDate_ || settings.integrator != integrator_) {
+        upToDate_ = false;
+        withinMemory(scene_, [&] { updateScene(deviceScene_, device_, scene_, settings.integrator); });
+    }
     integrator_ = settings.integrator;
     upToDate_ = true;
     return renderOnDevice(device_, scene_, deviceScene_, settings, control);

@@ -34,7 +34,8 @@ class Renderer {
     void setPointEmitters(std::vector<PointEmitter> emitters);
 
     /// The same bits as duolux::render of the same scene, whatever was rendered before. Ignores
-    /// `control.tuning`. Throws as that function: InputError if what was set is not valid.
+    /// `control.tuning`. Throws as that function: InputError if what was set is not valid. If
+    /// memory does not suffice for what was set, the next render tries again.
     RenderOutput render(const RenderSettings& settings, const RenderControl& control = {});
 
   private:

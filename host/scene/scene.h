@@ -55,9 +55,11 @@ const char* nameOf(Sampler sampler);
 const char* nameOf(Integrator integrator);
 
 struct RenderSettings {
-    std::uint32_t width = 512, height = 512;  ///< pixels, 1..16384
-    std::uint32_t spp = 64;                   ///< samples, or light paths, per pixel, 1..2^24
-    std::uint32_t bounces = 16;               ///< largest number of scattering events on a path, 0..65535
+    static constexpr std::uint32_t kLargestSize = 16384, kMostSpp = 1u << 24, kMostBounces = 65535;
+
+    std::uint32_t width = 512, height = 512;  ///< pixels, 1..kLargestSize
+    std::uint32_t spp = 64;                   ///< samples, or light paths, per pixel, 1..kMostSpp
+    std::uint32_t bounces = 16;  ///< largest number of scattering events on a path, 0..kMostBounces
     std::uint32_t seed = 1;
     Sampler sampler = Sampler::kSobol;
     Integrator integrator = Integrator::kPathTracer;

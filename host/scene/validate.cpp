@@ -190,4 +190,19 @@ void validateExceptGeometry(const Scene& scene) {
     Validator(scene).checkRest();
 }
 
+void validate(const RenderSettings& settings) {
+    // All fields by name: a further one does not compile until it is handled here.
+    const auto& [width, height, spp, bounces, seed, sampler, integrator, layers] = settings;
+    static_cast<void>(std::tie(seed, sampler, integrator, layers));  // have no wrong values
+    const auto expect = [](const char* field, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
+        if (value >= least && value <= most) return;
+        throw UsageError(
+            fmt::format("settings: {} is {}; expected a number from {} to {}", field, value, least, most));
+    };
+    expect("width", width, 1, RenderSettings::kLargestSize);
+    expect("height", height, 1, RenderSettings::kLargestSize);
+    expect("spp", spp, 1, RenderSettings::kMostSpp);
+    expect("bounces", bounces, 0, RenderSettings::kMostBounces);
+}
+
 }  // namespace duolux

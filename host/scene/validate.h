@@ -13,4 +13,8 @@ void validate(const Scene& scene);
 /// The same without Scene::geometry, which must be valid.
 void validateExceptGeometry(const Scene& scene);
 
+/// Checks that settings are within the ranges that their fields state. Throws UsageError with the first that
+/// is not.
+void validate(const RenderSettings& settings);
+
 }  // namespace duolux

@@ -14,6 +14,7 @@ DUOLUX_CONST uint kEmitterAliasTexel = 5u;  // the texel that holds the entry of
 // Kinds of emitters. The record of an emitter has its kind in DeviceEmitter.flags.
 DUOLUX_CONST uint kEmitterKindTriangle = 8u;
 DUOLUX_CONST uint kEmitterKindPoint = 16u;
+DUOLUX_CONST uint kEmitterKindsWithClosedForm = 24u;  // whose direct light irradianceFromEmitters computes
 
 // The other flags.
 DUOLUX_CONST uint kEmitterFront = 1u;       // emits on the front side

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using std::chrono::seconds;
 
 /// Fast tests first.
-constexpr const char* kTests[] = {"film_test", "render_test", "statistical_test"};
+constexpr const char* kTests[] = {"film_test", "render_test", "scene_test", "statistical_test"};
 
 /// All files except hidden ones and build output, relative to the root.
 std::set<fs::path> sourcesIn(const fs::path& root) {

@@ -1,11 +1,17 @@
 #include "host/render/renderer.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <string>
 #include <utility>
 
+#include "host/base/error.h"
+#include "host/base/temporary_folder.h"
+#include "host/generators/two_spheres.h"
+#include "host/view/load.h"
 #include "tests/statistical/films.h"
+#include "tests/support/address_space.h"
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
 #include "tests/support/scene_builder.h"
@@ -138,6 +144,28 @@ TEST_F(RendererTest, BuildsTheTreeOnce) {
     EXPECT_EQ(renderer.render(scene.settings).statistics.buildSeconds, 0.0);
 }
 
+/// Memory for the update is refused: the next render tries again, with the tree that the host has.
+TEST_F(RendererTest, GoesOnAfterAnUpdateWithoutMemory) {
+    if (kAddressSanitizer) return;  // which needs more address space than any limit allows
+    ::mallopt(M_MMAP_THRESHOLD, 1 << 16);  // arrays are mapped anew, so that the limit applies
+    const TemporaryFolder folder;
+    writeTwoSpheres(folder.path(), 100'000);
+    const LoadedScene scene = small(loadScene(folder.path() / "two_spheres.json"));
+    Renderer renderer(device(), scene);
+    renderer.render(scene.settings);
+    std::vector<Material> materials = scene.materials;
+    for (Material& material : materials)
+        material.emission.invisible = glm::vec3(0.5f);
+    renderer.setMaterials(materials);
+    {
+        const AddressSpaceLimit limit(std::size_t{1} << 20);
+        EXPECT_THROW(renderer.render(scene.settings), MemoryError);
+    }
+    LoadedScene changed = scene;
+    changed.materials = materials;
+    EXPECT_TRUE(sameBits(renderer.render(scene.settings).film, render(device(), changed).film));
+}
+
 TEST_F(RendererTest, RefusesWhatIsNotValid) {
     const LoadedScene scene = small(cornellBox());
     LoadedScene broken = scene;
@@ -148,6 +176,9 @@ TEST_F(RendererTest, RefusesWhatIsNotValid) {
     Renderer renderer(device(), scene);
     const RenderOutput before = renderer.render(scene.settings);
     EXPECT_THROW(renderer.setMaterials({}), UsageError);
+    RenderSettings settings = scene.settings;
+    settings.width = 0;
+    EXPECT_THROW(renderer.render(settings), UsageError);
     Camera camera = scene.camera;
     camera.target = camera.position;
     renderer.setCamera(camera);

@@ -148,6 +148,16 @@ TEST_P(Resume, RangesAddUp) {
     EXPECT_TRUE(sameBits(sum, whole));
 }
 
+TEST_P(Resume, AFilmOfAnotherSizeIsRefused) {
+    const LoadedScene box = scene(2);
+    const RenderState state{render(device(), box).film};
+    RenderControl control;
+    control.resume = &state;
+    RenderSettings settings = box.settings;
+    ++settings.width;
+    EXPECT_THROW(render(device(), box, settings, control), UsageError);
+}
+
 TEST_P(Resume, AnEmptyRangeIsRefused) {
     RenderControl control;
     control.samples = SampleRange{3, 3};

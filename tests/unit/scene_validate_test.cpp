@@ -138,6 +138,27 @@ TEST(Validate, IgnoresTheFieldsOfOtherCameras) {
     EXPECT_EQ(problemOf(scene), "none");
 }
 
+TEST(Validate, SettingsAreWithinTheirRanges) {
+    const auto problem = [](std::uint32_t RenderSettings::*field, std::uint32_t value) -> std::string {
+        RenderSettings settings;
+        settings.*field = value;
+        try {
+            validate(settings);
+        } catch (const UsageError& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(problem(&RenderSettings::width, 0), "settings: width is 0; expected a number from 1 to 16384");
+    EXPECT_EQ(problem(&RenderSettings::height, 16385),
+              "settings: height is 16385; expected a number from 1 to 16384");
+    EXPECT_EQ(problem(&RenderSettings::spp, 0), "settings: spp is 0; expected a number from 1 to 16777216");
+    EXPECT_EQ(problem(&RenderSettings::bounces, 65536),
+              "settings: bounces is 65536; expected a number from 0 to 65535");
+    EXPECT_EQ(problem(&RenderSettings::width, 16384), "");
+    EXPECT_EQ(problem(&RenderSettings::bounces, 0), "");
+}
+
 TEST(Validate, ExceptGeometryLeavesItOut) {
     Scene scene = completeScene();
     scene.geometry.positions[0].x = kNan;
