@@ -107,5 +107,31 @@ TEST(FilmOverflow, BeyondTheFilmIsClampedAndTold) {
     EXPECT_FALSE(render(device(), scene).statistics.filmOverflowed);
 }
 
+// 512 light paths in one batch add 2^58 quanta each to the same pixel: in 64 bits, their sum would wrap
+// around to 0. The unit of the film is that of an emitter 10^12 times as dim.
+TEST(FilmOverflow, SumsOfLightPathsDoNotWrapAround) {
+    SceneBuilder builder;
+    LoadedScene& scene = builder.scene;
+    scene.reflectance = *presetReflectance("global");
+    scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 40.0f};
+    scene.settings.width = scene.settings.height = 4;
+    scene.settings.bounces = 0;
+    scene.settings.spp = 1;
+    scene.settings.integrator = Integrator::kLightTracer;
+    Material lamp;
+    lamp.emission.visible = glm::vec3(1e-6f);
+    builder.quad({0.01f, 0.01f, -1}, {0.1f, 0.01f, -1}, {0.1f, 0.1f, -1}, {0.01f, 0.1f, -1},
+                 builder.add(lamp));
+    const RenderState state{render(device(), scene).film};
+    scene.materials[0].emission.visible = glm::vec3(1e6f);
+    scene.settings.spp = 33;
+    RenderControl control;
+    control.resume = &state;
+    const RenderOutput output = render(device(), scene, control);
+    EXPECT_TRUE(output.statistics.filmOverflowed);
+    const float largest = static_cast<float>(output.film.largestRadiance());
+    EXPECT_GT(output.film.resolve().visible[1 * 4 + 2].x, 0.3f * largest);
+}
+
 }  // namespace
 }  // namespace duolux::test
