@@ -8,6 +8,7 @@
 #include "tests/support/cornell.h"
 #include "tests/support/device.h"
 #include "tests/support/exact_case.h"
+#include "tests/support/scene_builder.h"
 
 // The same seed gives bitwise identical images, however the work is divided: a sample must depend only on its
 // pixel, its index and the seed, and sums must be exact. These tests detect random state that is carried from
@@ -45,6 +46,22 @@ TEST(Determinism, SeedsAndSamplersDiffer) {
         LoadedScene independent = variant(scene(5));
         independent.settings.sampler = Sampler::kIndependent;
         EXPECT_FALSE(sameBits(filmOf(variant(scene(5))), filmOf(independent)));
+    }
+}
+
+/// Paths are weighted by how much of each component is displayed, whatever its sign.
+TEST(Determinism, TheSignOfTheDisplayDoesNotMatter) {
+    for (const auto& variant : {+[](LoadedScene s) { return s; }, &byLight}) {
+        LoadedScene displayed = variant(scene(5));
+        // Nothing but the invisible component, which is hardly displayed, has light from the walls.
+        displayed.reflectance.opaque = matrix(0.5f, 0.0f, 0.0f, 0.0f);
+        displayed.display = {0.01f, 1.0f};
+        const Film film = filmOf(displayed);
+        for (const glm::vec2 signs : {glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(-1, -1)}) {
+            LoadedScene other = displayed;
+            other.display *= signs;
+            EXPECT_TRUE(sameBits(filmOf(other), film)) << signs.x << " " << signs.y;
+        }
     }
 }
 
