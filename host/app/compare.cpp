@@ -138,7 +138,7 @@ void run(const Arguments& arguments) {
     const RadianceImage reference = readSameSize(arguments.reference, image, arguments.image);
     CompareOptions options;
     options.exposure = arguments.exposure;
-    options.transfer = arguments.transfer == "linear" ? Transfer::kLinear : Transfer::kSrgb;
+    options.transfer = named<Transfer>(arguments.transfer).value_or(options.transfer);
     if (!arguments.mask.empty()) options.mask = readMask(arguments, image);
     const Comparison comparison = compare(image, reference, options);
     WriteAll write;
@@ -192,7 +192,7 @@ void addCompareCommand(CLI::App& app) {
         ->add_option("--transfer", arguments->transfer,
                      "Displayed values: srgb-encoded as in PNG files, or linear as in the paper; eps and "
                      "PSNR use them")
-        ->check(oneOf({"srgb", "linear"}))
+        ->check(oneOf(namesOfAll<Transfer>()))
         ->capture_default_str()
         ->type_name("NAME");
     addThreadsOption(*command);

@@ -8,6 +8,7 @@
 #include "host/app/film_images.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
+#include "host/base/named.h"
 #include "host/cli/console.h"
 #include "host/cli/options.h"
 
@@ -49,15 +50,10 @@ Overrides parseOverrides(const RenderOptions& options) {
     if (!options.preset.empty()) overrides.reflectance = presetReflectance(options.preset);
     if (!options.blend.empty()) overrides.reflectance = parseBlend(options.blend);
     if (!options.size.empty()) overrides.size = parseSize(options.size);
-    if (!options.sampler.empty()) {
-        overrides.sampler = options.sampler == "sobol" ? Sampler::kSobol : Sampler::kIndependent;
-    }
+    overrides.sampler = named<Sampler>(options.sampler);
     if (!options.sampleRange.empty()) overrides.range = parseSampleRange(options.sampleRange);
     if (!options.aov.empty()) overrides.layers = parseLayers(options.aov);
-    if (!options.integrator.empty()) {
-        overrides.integrator =
-            options.integrator == "light" ? Integrator::kLightTracer : Integrator::kPathTracer;
-    }
+    overrides.integrator = named<Integrator>(options.integrator);
     return overrides;
 }
 
@@ -68,8 +64,7 @@ DirectLight chooseDirectLight(const RenderOptions& options, const RenderSettings
             "--direct-light applies only to --integrator path; the light tracer does not sample direct "
             "light");
     }
-    if (options.directLight == "auto") return DirectLight::kAuto;
-    return options.directLight == "sampled" ? DirectLight::kSampled : DirectLight::kClosedForm;
+    return named<DirectLight>(options.directLight).value_or(DirectLight::kAuto);
 }
 
 void requireUseOfLayers(const RenderOptions& options, const std::vector<std::string>& outputs,

@@ -8,9 +8,12 @@
 #include "host/app/machine_options.h"
 #include "host/app/options.h"
 #include "host/base/error.h"
+#include "host/base/named.h"
 #include "host/cli/options.h"
 #include "host/film/image.h"
+#include "host/render/render.h"
 #include "host/scene/reflectance.h"
+#include "host/scene/scene.h"
 
 namespace duolux {
 
@@ -59,19 +62,19 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
             "path: path tracer (default, unless the scene chooses); light: light tracer, which connects "
             "paths from the emitters to the camera; --spp is then the number of light paths per pixel")
         ->type_name("NAME")
-        ->check(oneOf({"path", "light"}));
+        ->check(oneOf(namesOfAll<Integrator>()));
     command
         .add_option("--sampler", options.sampler,
                     "Owen-scrambled Sobol points (default), or independent random numbers")
         ->type_name("NAME")
-        ->check(oneOf({"sobol", "independent"}));
+        ->check(oneOf(namesOfAll<Sampler>()));
     command
         .add_option("--direct-light", options.directLight,
                     "Direct light in the path tracer: sampled; closed-form: without noise, only for diffuse, "
                     "flat surfaces where nothing blocks emitters (local, shadowless); auto (default): "
                     "closed-form for local, otherwise sampled")
         ->type_name("NAME")
-        ->check(oneOf({"auto", "sampled", "closed-form"}));
+        ->check(oneOf(namesOfAll<DirectLight>()));
     addDeviceOption(command, options.device);
     addThreadsOption(command);
     addTuningOptions(command, options.tuning);

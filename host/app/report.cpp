@@ -30,7 +30,8 @@ std::string renderReport(const LoadedScene& scene, SampleRange samples, const De
                                statistics.shadowRays + statistics.emitterRays;
     const bool shot = scene.settings.integrator == Integrator::kLightTracer;
     const char* directLight =
-        shot ? "light paths" : (statistics.directLightInClosedForm ? "closed-form" : "sampled");
+        shot ? "light paths"
+             : nameOf(statistics.directLightInClosedForm ? DirectLight::kClosedForm : DirectLight::kSampled);
     nlohmann::ordered_json report;
     report["version"] = 1;
     report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};

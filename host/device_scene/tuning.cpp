@@ -58,7 +58,13 @@ const char* nameOf(Layout layout) {
 }
 
 const char* nameOf(KernelKind kind) {
-    return kind == KernelKind::kRefilling ? "refilling" : "plain";
+    switch (kind) {
+        case KernelKind::kRefilling:
+            return "refilling";
+        case KernelKind::kPlain:
+            return "plain";
+    }
+    return "";
 }
 
 Tuning chooseTuning(const DeviceInfo& device, const TuningChoice& choice) {

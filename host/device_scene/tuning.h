@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
+#include "host/base/named.h"
 #include "host/vk/device_info.h"
 
 namespace duolux {
@@ -23,6 +25,10 @@ enum class KernelKind : std::uint8_t {
 
 const char* nameOf(Layout layout);    ///< "texel", "storage", "ray-query"
 const char* nameOf(KernelKind kind);  ///< "refilling", "plain"
+template <>
+inline constexpr std::array kValuesOf<Layout>{Layout::kTexel, Layout::kStorage, Layout::kRayQuery};
+template <>
+inline constexpr std::array kValuesOf<KernelKind>{KernelKind::kRefilling, KernelKind::kPlain};
 
 /// Explicit choices that replace the defaults for the kind of device.
 struct TuningChoice {

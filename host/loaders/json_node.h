@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/named.h"
+
 namespace duolux {
 
 /// A value of a JSON document with its location, so that every error names the file, the path, the value and
@@ -46,6 +48,11 @@ class JsonNode {
     const std::string& text(std::string_view remedy) const;
     /// The index of the value in a list of names.
     std::size_t choice(std::span<const std::string> names) const;
+    /// The value of an enumeration that the value names.
+    template <typename E>
+    E choice() const {
+        return kValuesOf<E>[choice(namesOfAll<E>())];
+    }
     /// Three numbers in [low, high].
     glm::dvec3 vector(double low, double high, std::string_view remedy) const;
     /// Three numbers in [low, high], or one for all channels.

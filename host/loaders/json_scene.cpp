@@ -62,11 +62,7 @@ double sineBetween(const glm::vec3& a, const glm::vec3& b) {
 CameraChoice readCamera(const JsonNode& node) {
     node.expectKeys({"type", "position", "target", "up", "vfov", "height"});
     CameraChoice camera;
-    if (const auto type = node.find("type")) {
-        static constexpr std::array kTypes{CameraType::kPerspective, CameraType::kOrthographic};
-        static const std::array<std::string, 2> kNames{nameOf(kTypes[0]), nameOf(kTypes[1])};
-        camera.type = kTypes[type->choice(kNames)];
-    }
+    if (const auto type = node.find("type")) camera.type = type->choice<CameraType>();
     if (const auto position = node.find("position")) camera.position = readPlace(*position);
     if (const auto target = node.find("target")) camera.target = readPlace(*target);
     if (const auto up = node.find("up")) camera.up = readDirection(*up);
@@ -100,14 +96,9 @@ void readRender(const JsonNode& node, RenderSettings& render) {
     if (const auto seed = node.find("seed")) {
         render.seed = seed->integer(0, std::numeric_limits<std::uint32_t>::max());
     }
-    if (const auto sampler = node.find("sampler")) {
-        static const std::array<std::string, 2> kNames{"sobol", "independent"};
-        render.sampler = sampler->choice(kNames) == 0 ? Sampler::kSobol : Sampler::kIndependent;
-    }
+    if (const auto sampler = node.find("sampler")) render.sampler = sampler->choice<Sampler>();
     if (const auto integrator = node.find("integrator")) {
-        static const std::array<std::string, 2> kNames{"path", "light"};
-        render.integrator =
-            integrator->choice(kNames) == 0 ? Integrator::kPathTracer : Integrator::kLightTracer;
+        render.integrator = integrator->choice<Integrator>();
     }
 }
 

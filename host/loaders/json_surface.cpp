@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -39,11 +38,6 @@ Reflectance readBlend(const JsonNode& node) {
                             static_cast<float>(point[1].number(0.0, 1.0, remedy)));
 }
 
-Sides readSides(const JsonNode& node) {
-    static const std::array<std::string, 2> kNames{"front", "both"};
-    return node.choice(kNames) == 0 ? Sides::kFront : Sides::kBoth;
-}
-
 /// What is not given is left as it is.
 void readComponents(const JsonNode& node, const char* quantity, glm::vec3& invisible, glm::vec3& visible) {
     const std::string remedy =
@@ -75,7 +69,7 @@ Reflectance readReflectance(const JsonNode& node) {
 void readEmission(const JsonNode& node, Emission& emission) {
     node.expectKeys({"invisible", "visible", "sides"});
     readComponents(node, "a radiance", emission.invisible, emission.visible);
-    if (const auto sides = node.find("sides")) emission.sides = readSides(*sides);
+    if (const auto sides = node.find("sides")) emission.sides = sides->choice<Sides>();
 }
 
 void readIntensity(const JsonNode& node, PointEmitter& emitter) {
@@ -101,7 +95,7 @@ void readMaterial(const JsonNode& node, Material& material) {
     if (const auto emission = node.find("emission")) readEmission(*emission, material.emission);
     if (const auto reflectance = node.find("reflectance"))
         material.reflectance = readReflectance(*reflectance);
-    if (const auto sides = node.find("sides")) material.sides = readSides(*sides);
+    if (const auto sides = node.find("sides")) material.sides = sides->choice<Sides>();
 }
 
 }  // namespace duolux

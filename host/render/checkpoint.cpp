@@ -15,6 +15,7 @@
 #include "host/base/file.h"
 #include "host/base/hash.h"
 #include "host/base/memory.h"
+#include "host/base/named.h"
 #include "host/base/version.h"
 #include "host/scene/hash.h"
 
@@ -50,10 +51,6 @@ constexpr const char* kPartsDoNotFit = "is damaged: its parts do not fit";
 
 std::string listOf(FilmLayerSet layers) {
     return layers == 0 ? "none" : fmt::format("{}", fmt::join(namesOf(layers), ","));
-}
-
-const char* nameOf(DirectLight directLight) {
-    return directLight == DirectLight::kClosedForm ? "closed-form" : "sampled";
 }
 
 /// A field of an origin: its place in the header, and its name in messages, or null if it may differ between
@@ -98,25 +95,17 @@ nlohmann::ordered_json toJson(const T& value) {
 }
 
 template <typename T>
-void fromJson(const nlohmann::json& json, T& value) {
-    static_assert(!std::is_enum_v<T>, "an enumeration has an overload of its own");
-    json.get_to(value);
-}
-
-void fromJson(const nlohmann::json& json, glm::vec2& value) {
-    value = {json.at(0).get<float>(), json.at(1).get<float>()};
-}
-
-void fromJson(const nlohmann::json& json, Sampler& value) {
-    value = json == nameOf(Sampler::kIndependent) ? Sampler::kIndependent : Sampler::kSobol;
-}
-
-void fromJson(const nlohmann::json& json, Integrator& value) {
-    value = json == nameOf(Integrator::kLightTracer) ? Integrator::kLightTracer : Integrator::kPathTracer;
-}
-
-void fromJson(const nlohmann::json& json, DirectLight& value) {
-    value = json == nameOf(DirectLight::kClosedForm) ? DirectLight::kClosedForm : DirectLight::kSampled;
+void fromJson(const nlohmann::json& json, const Field& field, const Fail& fail, T& value) {
+    if constexpr (std::is_enum_v<T>) {
+        const auto name = json.get<std::string>();
+        const auto found = named<T>(name);
+        if (!found) fail(fmt::format("has the {} '{}', which this version does not know", field.name, name));
+        value = *found;
+    } else if constexpr (std::is_same_v<T, glm::vec2>) {
+        value = {json.at(0).get<float>(), json.at(1).get<float>()};
+    } else {
+        json.get_to(value);
+    }
 }
 
 std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderStatistics& statistics) {
@@ -138,11 +127,12 @@ std::string headerOf(const FilmOrigin& origin, const Film& film, const RenderSta
 }
 
 /// Without the layers.
-FilmOrigin originFrom(const nlohmann::json& header) {
+FilmOrigin originFrom(const nlohmann::json& header, const Fail& fail) {
     FilmOrigin origin;
     forEachField(origin, [&](const Field& field, auto& value) {
-        fromJson(header.at(field.part).at(field.key), value);
+        fromJson(header.at(field.part).at(field.key), field, fail, value);
     });
+    if (origin.directLight == DirectLight::kAuto) fail(kPartsDoNotFit);  // a render has chosen one
     origin.settings.spp = origin.samples.size();
     return origin;
 }
@@ -183,7 +173,7 @@ Checkpoint parse(std::string_view bytes, const Fail& fail) {
     if (headerBytes > bytes.size()) fail(kPartsDoNotFit);
     const nlohmann::json header = nlohmann::json::parse(bytes.substr(0, headerBytes));
     bytes.remove_prefix(headerBytes);
-    FilmOrigin origin = originFrom(header);
+    FilmOrigin origin = originFrom(header, fail);
     const nlohmann::json& film = header.at("film");
     Film::Contents contents;
     contents.width = origin.settings.width;

@@ -19,6 +19,16 @@ const Reflectance& commonReflectance(const Scene& scene) {
     return scene.reflectanceOf(scene.materials[scene.geometry.materials.front()]);
 }
 
+std::uint32_t deviceKind(Sampler sampler) {
+    switch (sampler) {
+        case Sampler::kSobol:
+            return shared::kSamplerSobol;
+        case Sampler::kIndependent:
+            return shared::kSamplerIndependent;
+    }
+    return shared::kSamplerSobol;
+}
+
 // Fraction of the work that is spent on the component of the pixel that is not displayed.
 constexpr float kUndisplayedWeight = 1.0f / 16.0f;
 
@@ -79,8 +89,7 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecVertexColours, deviceScene.hasVertexColours},
             {shared::kSpecPlanes, deviceScene.hasPlanes},
-            {shared::kSpecSampler,
-             settings.sampler == Sampler::kIndependent ? shared::kSamplerIndependent : shared::kSamplerSobol},
+            {shared::kSpecSampler, deviceKind(settings.sampler)},
             {shared::kSpecTeamSize, tuning.lanes}};
 }
 

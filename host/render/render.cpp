@@ -34,6 +34,18 @@ double meanDisplayed(const Film& film, glm::vec2 display) {
 
 }  // namespace
 
+const char* nameOf(DirectLight directLight) {
+    switch (directLight) {
+        case DirectLight::kAuto:
+            return "auto";
+        case DirectLight::kSampled:
+            return "sampled";
+        case DirectLight::kClosedForm:
+            return "closed-form";
+    }
+    return "";
+}
+
 std::uint64_t RenderContext::samplesTotal() const {
     const std::uint64_t all = range.size() * pixels();
     return all - std::min(all, samplesResumed);

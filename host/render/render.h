@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/named.h"
 #include "host/device_scene/tuning.h"
 #include "host/film/film.h"
 #include "host/film/sample_range.h"
@@ -30,6 +32,11 @@ enum class DirectLight : std::uint8_t {
     kSampled,    ///< next-event estimation with multiple importance sampling
     kClosedForm  ///< Lambert's polygon formula; only where DeviceScene::closedFormApplies
 };
+
+const char* nameOf(DirectLight directLight);  ///< "auto", "sampled", "closed-form"
+template <>
+inline constexpr std::array kValuesOf<DirectLight>{DirectLight::kAuto, DirectLight::kSampled,
+                                                   DirectLight::kClosedForm};
 
 struct RenderStatistics;
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 
+#include "host/base/named.h"
 #include "host/scene/reflectance.h"
 
 namespace duolux {
@@ -13,6 +15,8 @@ enum class Sides : std::uint8_t { kFront, kBoth };
 
 /// "front" or "both".
 const char* nameOf(Sides sides);
+template <>
+inline constexpr std::array kValuesOf<Sides>{Sides::kFront, Sides::kBoth};
 
 /// Radiance that a surface emits, in W sr^-1 m^-2 (scene units), components >= 0 (paper, eq. 9).
 struct Emission {

@@ -7,7 +7,13 @@
 namespace duolux {
 
 const char* nameOf(Sides sides) {
-    return sides == Sides::kBoth ? "both" : "front";
+    switch (sides) {
+        case Sides::kFront:
+            return "front";
+        case Sides::kBoth:
+            return "both";
+    }
+    return "";
 }
 
 const char* nameOf(CameraType type) {
@@ -21,11 +27,23 @@ const char* nameOf(CameraType type) {
 }
 
 const char* nameOf(Sampler sampler) {
-    return sampler == Sampler::kIndependent ? "independent" : "sobol";
+    switch (sampler) {
+        case Sampler::kSobol:
+            return "sobol";
+        case Sampler::kIndependent:
+            return "independent";
+    }
+    return "";
 }
 
 const char* nameOf(Integrator integrator) {
-    return integrator == Integrator::kLightTracer ? "light" : "path";
+    switch (integrator) {
+        case Integrator::kPathTracer:
+            return "path";
+        case Integrator::kLightTracer:
+            return "light";
+    }
+    return "";
 }
 
 void noteContent(Scene& scene) {

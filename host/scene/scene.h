@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -53,6 +54,12 @@ enum class Integrator : std::uint8_t {
 const char* nameOf(CameraType type);
 const char* nameOf(Sampler sampler);
 const char* nameOf(Integrator integrator);
+template <>
+inline constexpr std::array kValuesOf<CameraType>{CameraType::kPerspective, CameraType::kOrthographic};
+template <>
+inline constexpr std::array kValuesOf<Sampler>{Sampler::kSobol, Sampler::kIndependent};
+template <>
+inline constexpr std::array kValuesOf<Integrator>{Integrator::kPathTracer, Integrator::kLightTracer};
 
 struct RenderSettings {
     static constexpr std::uint32_t kLargestSize = 16384, kMostSpp = 1u << 24, kMostBounces = 65535;

@@ -170,6 +170,22 @@ TEST_F(CheckpointTest, LayersThatDoNotFitAreRefused) {
     expectRefused(withHeader(good, layers, R"("layers":[        ])"), "its parts do not fit");
 }
 
+TEST_F(CheckpointTest, UnknownNamesAreRefused) {
+    writeCheckpoint(file_, someOrigin(), someFilm(true), someStatistics());
+    const std::string good = readFile(file_);
+    const auto with = [&](const std::string& was, const std::string& is) {
+        return withHeader(good, "\"" + was + "\"", is);
+    };
+    expectRefused(with("independent", R"("dependently")"),
+                  "has the sampler 'dependently', which this version does not know; expected a checkpoint");
+    expectRefused(with("light", R"("right")"),
+                  "has the integrator 'right', which this version does not know");
+    expectRefused(with("closed-form", R"("open-format")"),
+                  "has the direct light 'open-format', which this version does not know");
+    expectRefused(with("closed-form", R"("auto"       )"), "its parts do not fit");
+    expectRefused(with("light", "1      "), "its header cannot be read");
+}
+
 TEST_F(CheckpointTest, AnotherOriginIsRefusedByName) {
     struct Change {
         const char* word;

@@ -35,6 +35,16 @@ double sum(glm::dvec3 v) {
 
 }  // namespace
 
+const char* nameOf(Transfer transfer) {
+    switch (transfer) {
+        case Transfer::kSrgb:
+            return "srgb";
+        case Transfer::kLinear:
+            return "linear";
+    }
+    return "";
+}
+
 std::vector<std::pair<std::string_view, double>> Comparison::metrics() const {
     return {{"eps_mean", epsMean},
             {"eps_max", epsMax},

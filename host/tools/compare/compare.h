@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/named.h"
 #include "host/film/image.h"
 
 namespace duolux {
@@ -16,6 +18,10 @@ enum class Transfer : std::uint8_t {
     kSrgb,   ///< sRGB-encoded, as PNG files are
     kLinear  ///< linear, as in the paper's framebuffer
 };
+
+const char* nameOf(Transfer transfer);  ///< "srgb", "linear"
+template <>
+inline constexpr std::array kValuesOf<Transfer>{Transfer::kSrgb, Transfer::kLinear};
 
 struct CompareOptions {
     glm::vec2 display{0.0f, 1.0f};  ///< the row d of eq. 8 for images that hold both components

@@ -138,6 +138,18 @@ void addTo(const Target& sum, const Target& image) {
 
 }  // namespace
 
+const char* nameOf(Lighting lighting) {
+    switch (lighting) {
+        case Lighting::kFixedFunction:
+            return "fixed-function";
+        case Lighting::kPerFragment:
+            return "per-fragment";
+        case Lighting::kWireframe:
+            return "wireframe";
+    }
+    return "";
+}
+
 struct GlScene::Objects {
     Objects(GLsizei width, GLsizei height) : image(width, height, true), sum(width, height, false) {}
     ~Objects() {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "host/base/named.h"
 #include "host/scene/scene.h"
 #include "host/tools/gl/point_lights.h"
 #include "host/tools/gl/vertices.h"
@@ -20,6 +21,11 @@ enum class Lighting : std::uint8_t {
     kPerFragment,    ///< by a shader, at fragments
     kWireframe  ///< none: the edges of the triangles, in the colours of their materials, hidden lines removed
 };
+
+const char* nameOf(Lighting lighting);  ///< "fixed-function", "per-fragment", "wireframe"
+template <>
+inline constexpr std::array kValuesOf<Lighting>{Lighting::kFixedFunction, Lighting::kPerFragment,
+                                                Lighting::kWireframe};
 
 struct DrawOptions {
     Lighting lighting = Lighting::kFixedFunction;
