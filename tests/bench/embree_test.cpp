@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/error.h"
 #include "host/base/temporary_folder.h"
 #include "host/scene/emitters.h"
 #include "host/tools/bench/builtin_scenes.h"
@@ -45,6 +46,35 @@ TEST(Embree, PathTracerMatchesTheReference) {
         renders.push_back(renderByEmbree(embree, scene, scene.settings, emitters));
     const Agreement agreement = judge(renders, expected);
     EXPECT_TRUE(agreement.agrees) << agreement.report;
+}
+
+TEST(Embree, PathTracerRefusesWhatItLeavesOut) {
+    const auto isRefused = [](void (*change)(Scene&)) {
+        LoadedScene scene = cornellBox();
+        scene.reflectance = *presetReflectance("global");
+        scene.settings.width = scene.settings.height = scene.settings.spp = 1;
+        change(scene);
+        const EmbreeScene embree(scene.geometry);
+        const EmitterTable emitters = buildEmitterTable(scene, listEmitters(scene), false);
+        try {
+            renderByEmbree(embree, scene, scene.settings, emitters);
+            return false;
+        } catch (const UsageError&) {
+            return true;
+        }
+    };
+    EXPECT_FALSE(isRefused([](Scene&) {}));
+    EXPECT_TRUE(isRefused([](Scene& scene) { scene.reflectance = *presetReflectance("local"); }));
+    EXPECT_TRUE(isRefused([](Scene& scene) {
+        scene.geometry.colours.assign(scene.geometry.positions.size(), glm::vec3(0.5f));
+    }));
+    EXPECT_TRUE(isRefused([](Scene& scene) {
+        scene.geometry.normals = {glm::vec3(0.0f, 0.0f, 1.0f)};
+        scene.geometry.normalIndices.assign(scene.geometry.triangles.size(), glm::uvec3(0u));
+    }));
+    EXPECT_TRUE(isRefused([](Scene& scene) { scene.pointEmitters.emplace_back(); }));
+    EXPECT_TRUE(isRefused([](Scene& scene) { scene.materials[0].metallic = 0.5f; }));
+    EXPECT_TRUE(isRefused([](Scene& scene) { scene.materials[0].reflectance = scene.reflectance; }));
 }
 
 TEST(Embree, RaysMeetWhatOursMeet) {

@@ -133,6 +133,35 @@ TEST_F(OpenGl, BadArgumentsAreRefused) {
     EXPECT_EQ(runProgram(DUOLUX_GL_EXECUTABLE, folder_.path(), {"missing.obj", "-o", "gl.png"}).status, 3);
 }
 
+TEST_F(OpenGl, WhatItDoesNotDrawIsRefused) {
+    const auto refusal = [&](const std::string& more) {
+        std::ofstream(folder_ / "scene.json")
+            << R"({"duolux": 1, "objects": [{"mesh": "mesh.ply"}], )" << more << "}";
+        const ProgramResult result =
+            runProgram(DUOLUX_GL_EXECUTABLE, folder_.path(), {"scene.json", "-o", "gl.png"});
+        EXPECT_EQ(result.status, 3) << result.err;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "gl.png"));
+        return result.err;
+    };
+    const auto writeMesh = [&](const std::string& properties, const std::string& values) {
+        std::ofstream file(folder_ / "mesh.ply");
+        file << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+                "z\n"
+             << properties << "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        for (const char* place : {"0 0 0", "1 0 0", "0 1 0"})
+            file << place << values << "\n";
+        file << "3 0 1 2\n";
+    };
+    writeMesh("", "");
+    EXPECT_THAT(refusal(R"("display": [1, 1])"), HasSubstr("display: is not what OpenGL draws"));
+    EXPECT_THAT(
+        refusal(R"("lights": [{"type": "point", "position": [0, 0, 1], "emission": {"visible": 1}}])"),
+        HasSubstr("lights: have point lights"));
+    EXPECT_THAT(refusal(R"("materials": {"default": {"metallic": 1}})"), HasSubstr("is a metal"));
+    writeMesh("property uchar red\nproperty uchar green\nproperty uchar blue\n", " 255 0 0");
+    EXPECT_THAT(refusal(R"("lights": [])"), HasSubstr("has colours of vertices"));
+}
+
 TEST_F(OpenGl, TheExperimentWritesItsReport) {
     const ProgramResult result =
         runProgram(DUOLUX_PAPER_EXECUTABLE, folder_.path(),

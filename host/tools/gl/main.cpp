@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "host/base/error.h"
@@ -41,9 +42,34 @@ struct Arguments {
     float exposure = 0.0f;
 };
 
-Lighting lightingOf(const std::string& name) {
-    if (name == "per-fragment") return Lighting::kPerFragment;
-    return name == "wireframe" ? Lighting::kWireframe : Lighting::kFixedFunction;
+/// Throws InputError if the scene has something that is not drawn. All fields by name: a further one does not
+/// compile until it is handled here.
+void requireDrawable(const std::string& file, const Scene& scene) {
+    const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, origin, content] =
+        scene;
+    const auto& [positions, triangles, materialIndices, normals, normalIndices, colours] = geometry;
+    static_cast<void>(std::tie(source, camera, origin, content, positions, triangles, materialIndices,
+                               normals, normalIndices));
+    static_cast<void>(reflectance);  // `local` is drawn in its place
+    if (!colours.empty()) {
+        throw InputError(file, "", "has colours of vertices, which duolux-gl does not draw",
+                         "expected materials alone");
+    }
+    if (display != glm::vec2(0.0f, 1.0f)) {
+        throw InputError(file, "display", "is not what OpenGL draws", "expected [0, 1]");
+    }
+    if (!pointEmitters.empty()) {
+        throw InputError(file, "lights", "have point lights",
+                         "expected emitting surfaces, for which point lights are put here");
+    }
+    for (const Material& material : materials) {
+        const auto& [name, baseColor, metallic, roughness, sides, emission, ownReflectance] = material;
+        static_cast<void>(std::tie(baseColor, sides, emission));
+        static_cast<void>(std::tie(roughness, ownReflectance));  // of metals; `local` is drawn
+        if (metallic > 0.0f)
+            throw InputError(file, fmt::format("material {}", name), "is a metal",
+                             "expected diffuse materials, which are all that is drawn here");
+    }
 }
 
 void writeImages(WriteAll& write, const Arguments& arguments, const LoadedScene& scene,
@@ -78,24 +104,9 @@ void run(const Arguments& arguments) {
         scene.settings.width = size.x;
         scene.settings.height = size.y;
     }
-    if (!scene.geometry.colours.empty()) {
-        throw InputError(arguments.scene, "", "has colours of vertices, which duolux-gl does not draw",
-                         "expected materials alone");
-    }
-    if (scene.display != glm::vec2(0.0f, 1.0f)) {
-        throw InputError(arguments.scene, "display", "is not what OpenGL draws", "expected [0, 1]");
-    }
-    if (!scene.pointEmitters.empty()) {
-        throw InputError(arguments.scene, "lights", "have point lights",
-                         "expected emitting surfaces, for which point lights are put here");
-    }
-    for (const Material& material : scene.materials) {
-        if (material.metallic > 0.0f)
-            throw InputError(arguments.scene, fmt::format("material {}", material.name), "is a metal",
-                             "expected diffuse materials, which are all that is drawn here");
-    }
+    requireDrawable(arguments.scene, scene);
     DrawOptions options;
-    options.lighting = lightingOf(arguments.lighting);
+    options.lighting = named<Lighting>(arguments.lighting).value_or(options.lighting);
     options.passes = arguments.passes;
     const std::vector<float>& window = arguments.window;
     if (!(window[2] > 0.0f && window[3] > 0.0f && window[0] + window[2] <= 1.0f &&
@@ -172,7 +183,7 @@ void parseAndRun(int argc, char** argv) {
     app.add_option(
            "--lighting", arguments.lighting,
            "OpenGL's fixed function, at vertices; the same per fragment by a shader; or the mesh's edges")
-        ->check(CLI::IsMember({"fixed-function", "per-fragment", "wireframe"}))
+        ->check(CLI::IsMember(namesOfAll<Lighting>()))
         ->capture_default_str()
         ->type_name("NAME");
     app.add_option("--passes", arguments.passes, "Jittered images to average: samples per pixel")

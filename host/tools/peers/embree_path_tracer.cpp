@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
@@ -38,12 +39,8 @@ class PathTracer {
           scene_(scene),
           settings_(settings),
           emitters_(emitters),
-          densities_(scene.materials.size()),
-          plane_(imagePlane(scene.camera, settings.width, settings.height)) {
-        const std::vector<std::uint32_t> triangles = emittingTriangles(scene);
-        for (std::size_t i = 0; i < triangles.size(); ++i)
-            densities_[scene.geometry.materials[triangles[i]]] = emitters.records[i].density;
-    }
+          emittingTriangles_(emittingTriangles(scene)),
+          plane_(imagePlane(scene.camera, settings.width, settings.height)) {}
 
     vec3 pixel(std::uint32_t pixel) const {
         vec3 sum(0.0f);
@@ -71,8 +68,7 @@ class PathTracer {
         for (std::uint32_t scatterings = 0;; ++scatterings) {
             const EmbreeScene::Hit hit = embree_.nearest(origin, direction, kInfinity);
             if (hit.triangle == EmbreeScene::Hit::kNone) return radiance;
-            const std::uint32_t index = scene_.geometry.materials[hit.triangle];
-            const Material& material = scene_.materials[index];
+            const Material& material = scene_.materials[scene_.geometry.materials[hit.triangle]];
             const glm::uvec3 corner = scene_.geometry.triangles[hit.triangle];
             const vec3& a = scene_.geometry.positions[corner.x];
             const vec3& b = scene_.geometry.positions[corner.y];
@@ -80,10 +76,10 @@ class PathTracer {
             vec3 normal = glm::normalize(glm::cross(b - a, c - a));
             const float cosine = glm::dot(normal, direction);
             const bool front = cosine < 0.0f;
-            if (front || material.emission.sides == Sides::kBoth) {
-                const vec3& emission =
-                    scatterings == 0 ? material.emission.visible : material.emission.invisible;
-                const float ofLight = densities_[index] * hit.t * hit.t / std::max(std::abs(cosine), 1e-12f);
+            const shared::DeviceEmitter* const light = emitterOf(hit.triangle);
+            if (light && (light->flags & (front ? shared::kEmitterFront : shared::kEmitterBack)) != 0u) {
+                const vec3& emission = scatterings == 0 ? light->visible : light->invisible;
+                const float ofLight = light->density * hit.t * hit.t / std::max(std::abs(cosine), 1e-12f);
                 radiance += throughput * emission * (scatterings > 0 ? balance(pdf, ofLight) : 1.0f);
             }
             const bool scatters = front || material.sides == Sides::kBoth;
@@ -103,6 +99,12 @@ class PathTracer {
             direction = cosineDirection(normal, random);
             pdf = glm::dot(normal, direction) / kPi;
         }
+    }
+
+    /// The record of a triangle that emits, otherwise null.
+    const shared::DeviceEmitter* emitterOf(std::uint32_t triangle) const {
+        const std::uint32_t rank = TriangleRanks(emittingTriangles_).rankOf(triangle);
+        return rank < emittingTriangles_.size() ? &emitters_.records[rank] : nullptr;
     }
 
     /// Of one emitter, on a surface of albedo 1.
@@ -136,21 +138,38 @@ class PathTracer {
     const Scene& scene_;
     const RenderSettings& settings_;
     const EmitterTable& emitters_;
-    std::vector<float> densities_;  // with which points of a material's emitters are sampled, m^-2
+    std::vector<std::uint32_t> emittingTriangles_;  // the emitter of each has the same index
     ImagePlane plane_;
 };
+
+/// Whether the path tracer leaves out nothing of the scene. All fields by name: a further one does not
+/// compile until it is handled here.
+bool isSupported(const Scene& scene) {
+    const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, origin, content] =
+        scene;
+    const auto& [positions, triangles, materialIndices, normals, normalIndices, colours] = geometry;
+    static_cast<void>(std::tie(source, camera, origin, content, positions, triangles, materialIndices));
+    static_cast<void>(display);        // the picture is the visible component
+    static_cast<void>(normalIndices);  // there are none without normals
+    const auto isPlain = [](const Material& material) {
+        const auto& [name, baseColor, metallic, roughness, sides, emission, ownReflectance] = material;
+        static_cast<void>(std::tie(name, baseColor, sides, emission));
+        static_cast<void>(roughness);  // of metals
+        return metallic == 0.0f && !ownReflectance;
+    };
+    return reflectance == *presetReflectance("global") && normals.empty() && colours.empty() &&
+           pointEmitters.empty() && std::ranges::all_of(materials, isPlain);
+}
 
 }  // namespace
 
 RadianceImage renderByEmbree(const EmbreeScene& embree, const Scene& scene, const RenderSettings& settings,
                              const EmitterTable& emitters) {
-    const auto own = [](const Material& m) { return m.reflectance.has_value() || m.metallic > 0.0f; };
-    if (!scene.geometry.normals.empty() || !scene.pointEmitters.empty() ||
-        std::any_of(scene.materials.begin(), scene.materials.end(), own)) {
-        throw UsageError(
-            fmt::format("{}: Embree's path tracer supports only flat normals, diffuse surfaces, emitting "
-                        "triangles and `global`",
-                        scene.source.string()));
+    if (!isSupported(scene)) {
+        throw UsageError(fmt::format(
+            "{}: Embree's path tracer supports only flat normals, diffuse surfaces without colours "
+            "of vertices, emitting triangles and `global`",
+            scene.source.string()));
     }
     const PathTracer tracer(embree, scene, settings, emitters);
     RadianceImage image{settings.width, settings.height, {}, {}};
