@@ -272,6 +272,17 @@ TEST_F(JsonTest, MaterialsAreChecked) {
                 HasSubstr("materials.white.sides: is \"back\"; expected one of \"front\""));
 }
 
+TEST_F(JsonTest, EveryFieldOfAMaterialIsChecked) {
+    forEachField(Material{}, [&]<typename T>(const std::string& key, const T&) {
+        constexpr bool kIsObject =
+            std::is_same_v<T, Emission> || std::is_same_v<T, std::optional<Reflectance>>;
+        const std::string wrong = kIsObject ? "5" : R"({"nonsense": 0})";
+        EXPECT_THAT(
+            errorWith(R"("materials": {"white": {")" + key + "\": " + wrong + "}}"),
+            HasSubstr("materials.white." + key + ": is " + (kIsObject ? "5" : "an object") + "; expected"));
+    });
+}
+
 TEST_F(JsonTest, PointLights) {
     const LoadedScene scene = sceneWith(R"("lights": [{"type": "point", "position": [1, 2, 3],
         "emission": {"invisible": [4, 5, 6], "visible": 7}}])");
