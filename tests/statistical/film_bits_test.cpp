@@ -26,6 +26,7 @@ struct Expected {
     const char* scene;
     const char* preset;
     std::uint64_t path, light;
+    FilmLayerSet layers = 0;  ///< only the path tracer has layers
 };
 
 constexpr Expected kExpected[] = {
@@ -45,16 +46,24 @@ constexpr Expected kExpected[] = {
     {"two-spheres", "global", 0xaeeed8c35f8bc96d, 0x54a0becb1fc2b41b},
     {"two-spheres", "shadowless", 0x8777ff52e70b68c1, 0x9a11915bd10bfd23},
     {"two-spheres", "one-bounce", 0xda066579f245f7c0, 0x824fd5fa09e24e4f},
+    {"spot", "global", 0x8159795386d15f55, 0, kLayerNormal},
 };
 
 void PrintTo(const Expected& expected, std::ostream* out) {
     *out << expected.scene << ' ' << expected.preset;
+    for (const std::string& layer : namesOf(expected.layers))
+        *out << ' ' << layer;
 }
 
 std::uint64_t hashOf(const Film& film) {
     std::uint64_t hash = XXH3_64bits(film.samples().data(), film.samples().size_bytes());
     for (const std::span<const Film::PixelSum> sums : {film.sums(), film.lightPathSums()})
         hash = XXH3_64bits_withSeed(sums.data(), sums.size_bytes(), hash);
+    if (film.layers() != 0) {
+        const FilmLayerSet layers = film.layers();
+        hash = XXH3_64bits_withSeed(&layers, sizeof layers, hash);
+        hash = XXH3_64bits_withSeed(film.layerSums().data(), film.layerSums().size_bytes(), hash);
+    }
     for (const auto& [sum, count] : film.carries()) {
         hash = XXH3_64bits_withSeed(&sum, sizeof sum, hash);
         hash = XXH3_64bits_withSeed(&count, sizeof count, hash);
@@ -81,11 +90,13 @@ TEST_P(FilmBits, AreTheSameAsBefore) {
     scene.settings.spp = 4;
     scene.settings.bounces = 6;
     scene.settings.integrator = Integrator::kPathTracer;
+    scene.settings.layers = GetParam().layers;
     for (const TuningChoice& tuning : allTunings(device().info())) {
         if (tuning.layout == Layout::kRayQuery) continue;  // the driver rounds in its own way
         RenderControl control;
         control.tuning = tuning;
         EXPECT_EQ(hashOf(render(device(), scene, control).film), GetParam().path) << nameOf(tuning);
+        if (scene.settings.layers != 0) continue;
         EXPECT_EQ(hashOf(render(device(), byLight(scene), control).film), GetParam().light) << nameOf(tuning);
     }
 }
