@@ -1,5 +1,11 @@
+// What all kernels share: the size of work groups, and when lanes leave loops.
+//
 // How a kernel reads the triangles of a scene and finds those along a ray: our tree in texel buffers (the default), our
 // tree in storage buffers (DUOLUX_STORAGE), or an acceleration structure of the driver (DUOLUX_RAY_QUERY).
+layout(local_size_x_id = kSpecWorkgroupSize) in;
+layout(constant_id = kSpecLeaveTraversal) const uint kLeaveTraversal = 4u;
+layout(constant_id = kSpecLeaveNodes) const uint kLeaveNodes = 3u;
+
 #ifdef DUOLUX_RAY_QUERY
 
 #include "shaders/kernels/ray_query.glsl"

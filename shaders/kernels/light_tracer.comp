@@ -77,11 +77,10 @@ bool endSegment(inout LightPath path, inout Vertex vertex) {
     vertex.weightSum = 0.0;
     if (!kInvisibleScatters && !kSecondColumn) return false;
     if (!(weightSum > 0.0) || path.scatterings + 1u >= params.bounces) return false;
-    // Russian roulette on the flux that all vertices of the segment would scatter, in units of what was emitted.
-    float survival = path.scatterings >= 2u ? survivalProbability(weightSum / path.emitted) : 1.0;
-    uint roulette = sampleDimension(path.scatterings, path.crossings, kDimensionRoulette);
+    float survival;
+    bool continues = survives(path.stream, path.scatterings, path.crossings, weightSum / path.emitted, survival);
     path.scattered = scaled(path.scattered, vec3(weightSum / (vertex.weight * survival)));
-    return drawChoice(path.stream, roulette) < survival;
+    return continues;
 }
 
 // The light path leaves a vertex for a new segment.
@@ -107,10 +106,7 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
 
     float weight = carried(scaled(scattered, bsdfAlbedo(hit.material.bsdf, frame, toEmitter)));
     if (weight > 0.0) {
-        float u = 0.0;
-        if (kTransparency != kTransparencyZero) {
-            u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionCrossing));
-        }
+        float u = crossingChoice(path.stream, path.scatterings, path.crossings);
         if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }
 
@@ -163,9 +159,7 @@ void main() {
             bool found = ray.triangle != kNoTriangle;
             Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
             Outgoing outgoing;
-            bool connects = false;
-            bool leaves = false;
-            bool starts = false;
+            bool connects = false, leaves = false, starts = false;
             Start start;
             if (connection.pending) {
                 continueConnection(connection, sums, path.stream, ray, found, tri.materialFlags & kMaterialMask);

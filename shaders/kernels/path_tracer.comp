@@ -34,10 +34,8 @@ void endSegment(inout Path path, inout Vertex vertex) {
     vertex.weightSum = 0.0;
     path.ended = true;
     if (!kPathsContinue || !(weightSum > 0.0)) return;
-    // Russian roulette on the importance that all vertices of the segment would carry, in units of the camera's.
-    float survival = path.scatterings >= 2u ? survivalProbability(weightSum) : 1.0;
-    uint roulette = sampleDimension(path.scatterings, path.crossings, kDimensionRoulette);
-    if (drawChoice(path.stream, roulette) >= survival) return;
+    float survival;
+    if (!survives(path.stream, path.scatterings, path.crossings, weightSum, survival)) return;
 
     vec2 u = drawPair(path.stream, sampleDimension(path.scatterings, 0u, kDimensionDirection));
     BsdfSample s = scatter(vertex, -path.segment.direction, u, path.stream, path.scatterings, kModeRadiance);
@@ -68,9 +66,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
             connectToEmitter(shadow, received, hit, scattered, wo, u, path.scatterings + 1u);
         }
         float u = 0.0;
-        if (kTransparency != kTransparencyZero && kPathsContinue) {
-            u = drawChoice(path.stream, sampleDimension(path.scatterings, path.crossings, kDimensionCrossing));
-        }
+        if (kPathsContinue) u = crossingChoice(path.stream, path.scatterings, path.crossings);
         if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }
 

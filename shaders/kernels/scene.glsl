@@ -2,9 +2,6 @@
 #include "shaders/shared/bvh_layout.h"
 #include "shaders/shared/path_tracer_layout.h"
 
-layout(local_size_x_id = kSpecWorkgroupSize) in;
-layout(constant_id = kSpecLeaveTraversal) const uint kLeaveTraversal = 4u;
-layout(constant_id = kSpecLeaveNodes) const uint kLeaveNodes = 3u;
 layout(constant_id = kSpecSmoothNormals) const bool kSmoothNormals = true;
 layout(constant_id = kSpecVertexColours) const bool kVertexColours = false;
 layout(constant_id = kSpecSampler) const uint kSampler = kSamplerSobol;

@@ -41,6 +41,22 @@ vec2 drawPair(uvec2 stream, uint dimension) {
 }
 float drawChoice(uvec2 stream, uint dimension) { return sampleChoice(stream.x, stream.y, dimension, params.seed); }
 
+// The number that chooses between the vertices of a segment (offerVertex). Where no surface is crossed, there is one.
+float crossingChoice(uvec2 stream, uint scatterings, uint crossings) {
+    float u = 0.0;
+    if (kTransparency != kTransparencyZero) {
+        u = drawChoice(stream, sampleDimension(scatterings, crossings, kDimensionCrossing));
+    }
+    return u;
+}
+
+// Russian roulette at the end of a segment: whether the path continues. `weight`: what all vertices of the segment
+// would carry, in units of the start of the path. `survival`: the probability.
+bool survives(uvec2 stream, uint scatterings, uint crossings, float weight, out float survival) {
+    survival = scatterings >= 2u ? survivalProbability(weight) : 1.0;
+    return drawChoice(stream, sampleDimension(scatterings, crossings, kDimensionRoulette)) < survival;
+}
+
 // Without smooth normals a vertex need not keep both normals.
 BsdfFrame frameOf(SurfacePoint point) {
     return BsdfFrame(kSmoothNormals ? point.shadingNormal : point.geometricNormal, point.geometricNormal);

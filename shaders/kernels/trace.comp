@@ -3,12 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_basic : require
 
 #include "shaders/shared/trace_layout.h"
 
-layout(local_size_x_id = kSpecWorkgroupSize) in;
-layout(constant_id = kSpecLeaveTraversal) const uint kLeaveTraversal = 4u;
-layout(constant_id = kSpecLeaveNodes) const uint kLeaveNodes = 3u;
 layout(constant_id = kSpecTraceMode) const uint kMode = 0u;
 #ifdef DUOLUX_RAY_QUERY
 const bool kCount = false;  // the driver does not tell
@@ -20,6 +18,22 @@ layout(binding = kBindingRays, rgba32ui) uniform readonly uimageBuffer rayTexels
 layout(binding = kBindingHits, scalar) writeonly buffer HitsBlock { TraceHit hits[]; };
 layout(binding = kBindingHits, scalar) buffer CountsBlock { TraceCounts counts; };
 layout(push_constant, scalar) uniform DispatchBlock { TraceDispatch dispatch; };
+
+// What a lane does in the traversal, and how many steps the subgroup takes for it.
+TraceCounts sums = TraceCounts(0u, 0u, 0u, 0u);
+
+void countNode() {
+    sums.nodeSteps += subgroupElect() ? 1u : 0u;
+    sums.nodes += 1u;
+}
+
+void countPair() {
+    sums.pairSteps += subgroupElect() ? 1u : 0u;
+    sums.pairs += 1u;
+}
+
+#define DUOLUX_COUNT_NODE if (kCount) countNode();
+#define DUOLUX_COUNT_PAIR if (kCount) countPair();
 
 #include "shaders/kernels/layout.glsl"
 
@@ -34,33 +48,6 @@ Traversal startRay(uint index) {
                           uintBitsToFloat(t1.w), kMode == kTraceAnyHit);
 }
 
-#ifndef DUOLUX_RAY_QUERY
-// traverse() step by step, to count what lanes do and how many steps the subgroup takes for it: its loops must stay those
-// of traverse().
-void traverseCounting(inout Traversal r, inout TraceCounts sums) {
-    while (traversalAlive(r)) {
-        while (r.pairMask == 0u && r.nodesLeft) {
-            sums.nodeSteps += subgroupElect() ? 1u : 0u;
-            sums.nodes += 1u;
-            visitNode(r);
-            if (laneCount(r.pairMask == 0u && r.nodesLeft) < kLeaveNodes) break;
-        }
-        if (r.pairMask != 0u) {
-            do {
-                sums.pairSteps += subgroupElect() ? 1u : 0u;
-                sums.pairs += 1u;
-                testPair(r, kOrdered);
-            } while (r.pairMask != 0u);
-        }
-        if (r.anyHit && r.triangle != kNoTriangle) {
-            r.nodesLeft = false;
-            r.pairMask = 0u;
-        }
-        if (laneCount(traversalAlive(r)) < kLeaveTraversal) break;
-    }
-}
-#endif
-
 void main() {
     uint block = gl_GlobalInvocationID.x / gl_SubgroupSize;
     uint next = block * dispatch.blockRays;
@@ -72,13 +59,9 @@ void main() {
     ray.nodesLeft = busy;
     uint crossings = 0u;
     TraceHit first = TraceHit(-1.0, vec3(0.0));
-    TraceCounts sums = TraceCounts(0u, 0u, 0u, 0u);
 
     while (subgroupBallot(busy) != uvec4(0u)) {
-#ifndef DUOLUX_RAY_QUERY
-        if (kCount) traverseCounting(ray, sums);
-#endif
-        if (!kCount) traverse(ray, kOrdered, kLeaveTraversal, kLeaveNodes);
+        traverse(ray, kOrdered, kLeaveTraversal, kLeaveNodes);
         bool found = ray.triangle != kNoTriangle;
         bool done = busy && !traversalAlive(ray);
         if (kOrdered && done && found) {

@@ -14,6 +14,12 @@
 #include "shaders/lib/plane.glsl"
 #include "shaders/shared/bvh_layout.h"
 
+// Statements of a kernel that counts what its lanes do.
+#ifndef DUOLUX_COUNT_NODE
+#define DUOLUX_COUNT_NODE
+#define DUOLUX_COUNT_PAIR
+#endif
+
 uvec4 fetchNodeTexel(uint index);
 
 // Subgroups of 8 vote by shuffles: lavapipe compiles a shuffle to one instruction, but a ballot to a loop over the
@@ -203,12 +209,15 @@ uint laneCount(bool b) {
 void traverse(inout Traversal r, bool ordered, uint leaveTraversal, uint leaveNodes) {
     while (traversalAlive(r)) {
         while (r.pairMask == 0u && r.nodesLeft) {
+            DUOLUX_COUNT_NODE
             visitNode(r);
             if (laneCount(r.pairMask == 0u && r.nodesLeft) < leaveNodes) break;
         }
         if (r.pairMask != 0u) {
-            do testPair(r, ordered);
-            while (r.pairMask != 0u);
+            do {
+                DUOLUX_COUNT_PAIR
+                testPair(r, ordered);
+            } while (r.pairMask != 0u);
         }
         if (r.anyHit && r.triangle != kNoTriangle) {
             r.nodesLeft = false;

@@ -5,7 +5,7 @@ s@ *//.*@@
 # library.inc includes each file once, in order; code for C++ alone is left out.
 /^#ifdef __cplusplus/,/^#endif/d
 /^#(include|extension|ifndef|define|endif)\b/d
-/^DUOLUX_(BEGIN|END)$/d
+/^ *DUOLUX_(BEGIN|END|COUNT_NODE|COUNT_PAIR)$/d
 
 # Numbers and scalars: all arithmetic uses `real`.
 s/\b(([0-9]+\.[0-9]*|[0-9]*\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+)f?\b/real(\1)/g
