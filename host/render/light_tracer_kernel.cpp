@@ -54,16 +54,6 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
     return bindings;
 }
 
-std::vector<Specialization> specialize(const RenderInputs& inputs, std::size_t bands,
-                                       std::uint32_t bandPixels) {
-    std::vector<Specialization> constants = sceneSpecialization(inputs);
-    constants.push_back(
-        {shared::kSpecCameraTransparency, inputs.deviceScene.transport.traits.cameraTransparency});
-    constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
-    constants.push_back({shared::kSpecBandPixels, bandPixels});
-    return constants;
-}
-
 std::span<const std::uint32_t> chooseVariant(const Device& device, Layout layout, bool noInt64Atomics) {
     if (device.info().int64Atomics && !noInt64Atomics) {
         return variantFor(layout, spirv::kLightTracerInt64Texel, spirv::kLightTracerInt64Storage,
@@ -74,6 +64,16 @@ std::span<const std::uint32_t> chooseVariant(const Device& device, Layout layout
 }
 
 }  // namespace
+
+std::vector<Specialization> lightTracerSpecialization(const RenderInputs& inputs, std::size_t bands,
+                                                      std::uint32_t bandPixels) {
+    std::vector<Specialization> constants = sceneSpecialization(inputs);
+    constants.push_back(
+        {shared::kSpecCameraTransparency, inputs.deviceScene.transport.traits.cameraTransparency});
+    constants.push_back({shared::kSpecFilmBands, static_cast<std::uint32_t>(bands)});
+    constants.push_back({shared::kSpecBandPixels, bandPixels});
+    return constants;
+}
 
 LightTracerKernel::LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits)
     : device_(&inputs.device),
@@ -92,7 +92,8 @@ LightTracerKernel::LightTracerKernel(const RenderInputs& inputs, std::uint32_t m
       kernel_(inputs.device, "light",
               chooseVariant(inputs.device, inputs.deviceScene.tuning.layout, limits.noInt64Atomics),
               lightBindings(sceneBindings(inputs.deviceScene, params_), results_, teams_, film_),
-              specialize(inputs, film_.size(), bandPixels_), sizeof(shared::LightTracerDispatch)),
+              lightTracerSpecialization(inputs, film_.size(), bandPixels_),
+              sizeof(shared::LightTracerDispatch)),
       commands_{CommandSlot(inputs.device), CommandSlot(inputs.device)} {
     clearFilm();
 }

@@ -22,6 +22,11 @@ struct PathRange {
     std::uint32_t count = 0;
 };
 
+/// The specialisation constants of the kernel. `bands`: buffers of the film; `bandPixels`: pixels of each of
+/// them but the last.
+std::vector<Specialization> lightTracerSpecialization(const RenderInputs& inputs, std::size_t bands,
+                                                      std::uint32_t bandPixels);
+
 /// The kernel of the light tracer, specialised for a scene, with a film on the device.
 class LightTracerKernel {
   public:

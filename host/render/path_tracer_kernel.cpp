@@ -9,17 +9,6 @@ namespace duolux {
 
 namespace {
 
-std::vector<Specialization> specialize(const RenderInputs& inputs, bool closedForm) {
-    const DeviceScene& deviceScene = inputs.deviceScene;
-    std::uint32_t directLight = closedForm ? shared::kDirectLightClosedForm : shared::kDirectLightSampled;
-    if (deviceScene.transport.emitterChoices == 0) directLight = shared::kDirectLightNone;
-    std::vector<Specialization> constants = sceneSpecialization(inputs);
-    constants.push_back({shared::kSpecDirectLight, directLight});
-    constants.push_back({shared::kSpecHasEmitters, !deviceScene.emittingTriangles.empty()});
-    constants.push_back({shared::kSpecFilmLayers, inputs.settings.layers});
-    return constants;
-}
-
 std::vector<Binding> pathBindings(std::vector<Binding> bindings, const Buffer& pixels, const Buffer& results,
                                   const Buffer& layerResults, const Teams& teams) {
     bindings.push_back({shared::kBindingPixels, &pixels});
@@ -53,6 +42,17 @@ Buffer uploadPixels(const Device& device, std::span<const std::uint32_t> pixels,
 
 }  // namespace
 
+std::vector<Specialization> pathTracerSpecialization(const RenderInputs& inputs, bool closedForm) {
+    const DeviceScene& deviceScene = inputs.deviceScene;
+    std::uint32_t directLight = closedForm ? shared::kDirectLightClosedForm : shared::kDirectLightSampled;
+    if (deviceScene.transport.emitterChoices == 0) directLight = shared::kDirectLightNone;
+    std::vector<Specialization> constants = sceneSpecialization(inputs);
+    constants.push_back({shared::kSpecDirectLight, directLight});
+    constants.push_back({shared::kSpecHasEmitters, !deviceScene.emittingTriangles.empty()});
+    constants.push_back({shared::kSpecFilmLayers, inputs.settings.layers});
+    return constants;
+}
+
 PathTracerKernel::PathTracerKernel(const RenderInputs& inputs, std::span<const std::uint32_t> pixels,
                                    std::uint32_t maxPixels, bool closedForm)
     : laneSamples_(lanePaths(inputs.deviceScene)),
@@ -75,7 +75,7 @@ PathTracerKernel::PathTracerKernel(const RenderInputs& inputs, std::span<const s
                          spirv::kPathTracerRayQuery),
               pathBindings(sceneBindings(inputs.deviceScene, params_), pixelOrder_, results_, layerResults_,
                            teams_),
-              specialize(inputs, closedForm), sizeof(shared::PathTracerDispatch)),
+              pathTracerSpecialization(inputs, closedForm), sizeof(shared::PathTracerDispatch)),
       commands_{CommandSlot(inputs.device), CommandSlot(inputs.device)} {}
 
 std::uint64_t PathTracerKernel::deviceBytes() const {

@@ -20,6 +20,9 @@
 
 namespace duolux {
 
+/// The specialisation constants of the kernel; `closedForm`: see below.
+std::vector<Specialization> pathTracerSpecialization(const RenderInputs& inputs, bool closedForm);
+
 /// The kernel of the path tracer, specialised for a scene. Pixels are numbered in the order of `pixels`.
 class PathTracerKernel {
   public:

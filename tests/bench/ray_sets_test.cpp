@@ -10,8 +10,10 @@
 #include "host/tools/bench/builtin_scenes.h"
 #include "host/tools/bench/trace_kernel.h"
 #include "host/view/load.h"
+#include "shaders/embedded.h"
 #include "tests/reference/triangles.h"
 #include "tests/support/device.h"
+#include "tests/support/spec_ids.h"
 #include "tests/support/tunings.h"
 
 namespace duolux::test {
@@ -66,6 +68,13 @@ std::size_t differences(const RaySet& set, const std::vector<shared::TraceHit>& 
         count += same ? 0 : 1;
     }
     return count;
+}
+
+TEST(TraceSpecialization, GivesAllConstantsOfTheKernel) {
+    const std::vector<Specialization> constants = traceSpecialization({}, shared::kTraceNearest, true);
+    for (const spirv::Words& kernel :
+         {spirv::kTraceKernelTexel, spirv::kTraceKernelStorage, spirv::kTraceKernelRayQuery})
+        EXPECT_THAT(idsLeftOut(kernel, constants), testing::IsEmpty());
 }
 
 TEST_P(RaySets, KernelsMeetWhatBruteForceMeets) {

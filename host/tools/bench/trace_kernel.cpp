@@ -27,6 +27,16 @@ std::vector<Binding> traceBindings(std::vector<Binding> bindings, const Buffer& 
 
 }  // namespace
 
+std::vector<Specialization> traceSpecialization(const Tuning& tuning, std::uint32_t mode, bool count) {
+    return {{shared::kSpecWorkgroupSize, tuning.workgroupSize},
+            {shared::kSpecLeaveTraversal, tuning.leaveTraversal},
+            {shared::kSpecLeaveNodes, tuning.leaveNodes},
+            {shared::kSpecVoteByShuffle, tuning.voteByShuffle},
+            {shared::kSpecPlanes, false},
+            {shared::kSpecTraceMode, mode},
+            {shared::kSpecCount, count}};
+}
+
 TraceKernel::TraceKernel(const Device& device, const DeviceScene& scene, std::uint32_t mode,
                          std::span<const shared::TraceRay> rays, bool count)
     : device_(&device),
@@ -41,13 +51,7 @@ TraceKernel::TraceKernel(const Device& device, const DeviceScene& scene, std::ui
               variantFor(scene.tuning.layout, spirv::kTraceKernelTexel, spirv::kTraceKernelStorage,
                          spirv::kTraceKernelRayQuery),
               traceBindings(scene.treeBindings(), rays_, results_),
-              std::vector<Specialization>{{shared::kSpecWorkgroupSize, workgroupSize_},
-                                          {shared::kSpecLeaveTraversal, scene.tuning.leaveTraversal},
-                                          {shared::kSpecLeaveNodes, scene.tuning.leaveNodes},
-                                          {shared::kSpecVoteByShuffle, scene.tuning.voteByShuffle},
-                                          {shared::kSpecTraceMode, mode},
-                                          {shared::kSpecCount, count}},
-              sizeof(shared::TraceDispatch)),
+              traceSpecialization(scene.tuning, mode, count), sizeof(shared::TraceDispatch)),
       commands_(device) {
     assert(!count || scene.tuning.layout != Layout::kRayQuery);
 }

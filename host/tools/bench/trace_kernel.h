@@ -14,6 +14,9 @@
 
 namespace duolux {
 
+/// The specialisation constants of the kernel; `mode`: one of shared::kTrace...
+std::vector<Specialization> traceSpecialization(const Tuning& tuning, std::uint32_t mode, bool count);
+
 /// Traces the same rays repeatedly, to measure the traversal alone.
 class TraceKernel {
   public:
