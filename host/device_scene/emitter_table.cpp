@@ -22,20 +22,31 @@ double brightness(const Emission& emission, bool bothComponents) {
     return (e.x + e.y + e.z) * (emission.sides == Sides::kBoth ? 2.0 : 1.0);
 }
 
+constexpr std::uint32_t deviceKind(EmitterKind kind) {
+    switch (kind) {
+        case EmitterKind::kTriangle:
+            return shared::kEmitterKindTriangle;
+        case EmitterKind::kPoint:
+            return shared::kEmitterKindPoint;
+    }
+    return 0;
+}
+
+/// The sum over all kinds; there are at most 32.
+constexpr std::uint32_t allKinds() {
+    std::uint32_t kinds = 0;
+    for (std::uint8_t kind = 0; kind < 32; ++kind)
+        kinds |= deviceKind(EmitterKind{kind});
+    return kinds;
+}
+static_assert(allKinds() == shared::kAllEmitterKinds, "the shader tests go through kAllEmitterKinds");
+
 }  // namespace
 
 std::uint32_t emitterKinds(std::span<const SceneEmitter> emitters) {
     std::uint32_t kinds = 0;
-    for (const SceneEmitter& emitter : emitters) {
-        switch (emitter.kind) {
-            case EmitterKind::kTriangle:
-                kinds |= shared::kEmitterKindTriangle;
-                break;
-            case EmitterKind::kPoint:
-                kinds |= shared::kEmitterKindPoint;
-                break;
-        }
-    }
+    for (const SceneEmitter& emitter : emitters)
+        kinds |= deviceKind(emitter.kind);
     return kinds;
 }
 
@@ -87,6 +98,7 @@ EmitterTable buildEmitterTable(const Scene& scene, std::span<const SceneEmitter>
         shared::DeviceEmitter record{};
         record.invisible = emitter.emission.invisible;
         record.visible = emitter.emission.visible;
+        record.flags = deviceKind(emitter.kind);
         const double bright = brightness(emitter.emission, bothComponents);
         switch (emitter.kind) {
             case EmitterKind::kTriangle: {
@@ -94,8 +106,8 @@ EmitterTable buildEmitterTable(const Scene& scene, std::span<const SceneEmitter>
                 record.v0 = geometry.positions[index.x];
                 record.v1 = geometry.positions[index.y];
                 record.v2 = geometry.positions[index.z];
-                record.flags = shared::kEmitterKindTriangle | shared::kEmitterFront |
-                               (emitter.emission.sides == Sides::kBoth ? shared::kEmitterBack : 0u);
+                record.flags |= shared::kEmitterFront |
+                                (emitter.emission.sides == Sides::kBoth ? shared::kEmitterBack : 0u);
                 record.positionError = pointErrorOf(record.v0, record.v1, record.v2);
                 weights.push_back(emitter.area * bright);
                 densities.push_back(bright);  // per unit area
@@ -103,7 +115,6 @@ EmitterTable buildEmitterTable(const Scene& scene, std::span<const SceneEmitter>
             }
             case EmitterKind::kPoint:
                 record.v0 = scene.pointEmitters[emitter.index].position;
-                record.flags = shared::kEmitterKindPoint;
                 // The power is 4 pi times the intensity; that of a triangle pi times radiance and area.
                 weights.push_back(4.0 * bright);
                 densities.push_back(weights.back());

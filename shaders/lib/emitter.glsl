@@ -8,7 +8,7 @@
 #include "shaders/lib/emitter/triangle.glsl"
 #include "shaders/lib/rng.glsl"
 
-layout(constant_id = kSpecEmitterKinds) const uint kEmitterKinds = 24u;
+layout(constant_id = kSpecEmitterKinds) const uint kEmitterKinds = kAllEmitterKinds;
 
 // Whether an emitter is of a kind. Known without its record in a scene that has one kind only.
 bool isKind(Emitter emitter, uint kind) {

@@ -6,9 +6,10 @@
 
 DUOLUX_BEGIN
 
-// Kinds of cameras.
+// Kinds of cameras, and their number.
 DUOLUX_CONST uint kCameraPerspective = 0u;
 DUOLUX_CONST uint kCameraOrthographic = 1u;
+DUOLUX_CONST uint kCameraKinds = 2u;
 
 struct DeviceCamera {
     vec3 position;

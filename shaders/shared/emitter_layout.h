@@ -15,6 +15,7 @@ DUOLUX_CONST uint kEmitterAliasTexel = 5u;  // the texel that holds the entry of
 DUOLUX_CONST uint kEmitterKindTriangle = 8u;
 DUOLUX_CONST uint kEmitterKindPoint = 16u;
 DUOLUX_CONST uint kEmitterKindsWithClosedForm = 24u;  // whose direct light irradianceFromEmitters computes
+DUOLUX_CONST uint kAllEmitterKinds = kEmitterKindTriangle | kEmitterKindPoint;
 
 // The other flags.
 DUOLUX_CONST uint kEmitterFront = 1u;       // emits on the front side

@@ -87,6 +87,26 @@ TEST(CameraDirection, IsThatOfTheReference) {
     }
 }
 
+// A kind without a branch in a dispatch gets the results of another kind for the same record.
+TEST(CameraKinds, AreToldApart) {
+    const shared::DeviceCamera record = recordOf(kCamera);
+    const std::vector<glm::vec2> position{{3.5f, 7.5f}};
+    const std::vector<glm::vec3> point{kCamera.target + glm::vec3(0.3f, 0.2f, 0.1f)};
+    std::vector<glm::vec3> rays, connections;
+    for (std::uint32_t kind = 0; kind < shared::kCameraKinds; ++kind) {
+        ShaderLibrary library("shaders/lib/camera.glsl");
+        library.constant(shared::kSpecCamera, kind);
+        rays.push_back(
+            library.evaluate<glm::vec3>("result = cameraRay(x0, x1).direction;", record, position)[0]);
+        connections.push_back(
+            library.evaluate<glm::vec3>("result = connectToCamera(x0, x1).direction;", record, point)[0]);
+        for (std::uint32_t other = 0; other < kind; ++other) {
+            EXPECT_NE(rays[kind], rays[other]) << kind << " and " << other;
+            EXPECT_NE(connections[kind], connections[other]) << kind << " and " << other;
+        }
+    }
+}
+
 // A scene of size 1, seen from up to a million times that distance: rays start in front of it and deviate
 // from the exact rays by at most a unit in the last place of its coordinates, and its points are seen in the
 // pixels of those rays.

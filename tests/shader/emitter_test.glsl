@@ -194,3 +194,36 @@ TEST(EachKindIsServedByItsOwnFunctions) {
     EXPECT_EQ(emitRay(point, pointOnEmitter(point, u), 0.25, u).direction, uniformSphere(u));
     EXPECT_EQ(seeEmitter(triangle, on, normal).intensity.visible, seeTriangleEmitter(triangle, on, normal).intensity.visible);
 }
+
+// The lowest of some bits.
+uint lowest(uint bits) { return bits & (~bits + 1u); }
+
+// A kind without a branch in a dispatch gets the results of another kind for the same record. (A kind that rightly
+// shares a function with another needs an exception here.)
+TEST(EveryDispatchTellsTheKindsApart) {
+    Emitter a = triangleEmitter(kEmitterFront | kEmitterBack);
+    vec3 receiver = randomVec3(2.0, 3.0);
+    vec3 normal = normalize(a.v0 - receiver);
+    uvec2 words = uvec2(randomUint(), randomUint());
+    vec2 u = randomVec2();
+    uint sides = a.flags;
+    for (uint kinds = kAllEmitterKinds; kinds != 0u; kinds &= kinds - 1u) {
+        a.flags = sides | lowest(kinds);
+        store(0u, a);
+        EmitterSample sampled = sampleEmitter(1u, receiver, words);
+        Radiance2 light = irradianceFromEmitters(1u, receiver, normal);
+        EmitterPoint on = pointOnEmitter(a, u);
+        for (uint others = kinds & (kinds - 1u); others != 0u; others &= others - 1u) {
+            Emitter b = a;
+            b.flags = sides | lowest(others);
+            store(0u, b);
+            EXPECT_NE(sampleEmitter(1u, receiver, words).wi, sampled.wi);
+            if (((a.flags | b.flags) & kAllEmitterKinds & ~kEmitterKindsWithClosedForm) == 0u) {
+                EXPECT_NE(irradianceFromEmitters(1u, receiver, normal).visible, light.visible);
+            }
+            EXPECT_NE(pointOnEmitter(b, u).position, on.position);
+            EXPECT_NE(emitRay(b, on, 0.25, u).direction, emitRay(a, on, 0.25, u).direction);
+            EXPECT_NE(seeEmitter(b, on, normal).intensity.visible, seeEmitter(a, on, normal).intensity.visible);
+        }
+    }
+}
