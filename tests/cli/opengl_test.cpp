@@ -156,7 +156,7 @@ TEST_F(OpenGl, WhatItDoesNotDrawIsRefused) {
     EXPECT_THAT(refusal(R"("display": [1, 1])"), HasSubstr("display: is not what OpenGL draws"));
     EXPECT_THAT(
         refusal(R"("lights": [{"type": "point", "position": [0, 0, 1], "emission": {"visible": 1}}])"),
-        HasSubstr("lights: have point lights"));
+        HasSubstr("lights: contains point lights"));
     EXPECT_THAT(refusal(R"("materials": {"default": {"metallic": 1}})"), HasSubstr("is a metal"));
     writeMesh("property uchar red\nproperty uchar green\nproperty uchar blue\n", " 255 0 0");
     EXPECT_THAT(refusal(R"("lights": [])"), HasSubstr("has colours of vertices"));

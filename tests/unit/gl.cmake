@@ -1,1 +1,1 @@
-duolux_test(gl_scene_test SOURCES gl_point_lights_test.cpp gl_view_test.cpp LINK duolux_gl_scene duolux_test_support)
+duolux_test(gl_scene_test SOURCES gl_spot_lights_test.cpp gl_view_test.cpp LINK duolux_gl_scene duolux_test_support)

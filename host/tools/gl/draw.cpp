@@ -216,7 +216,7 @@ void GlScene::drawRanges(const std::function<void(const Material&)>& setMaterial
     ++statistics_.sceneDrawings;
 }
 
-void GlScene::drawFixedFunction(std::span<const PointLight> lights, bool withEmission) {
+void GlScene::drawFixedFunction(std::span<const SpotLight> lights, bool withEmission) {
     const Bounds bounds = boundsOf(scene_.geometry);
     const glm::vec3 size = bounds.upper - bounds.lower;
     const float length = std::max({size.x, size.y, size.z}) / 2.0f;
@@ -228,7 +228,7 @@ void GlScene::drawFixedFunction(std::span<const PointLight> lights, bool withEmi
             glDisable(light);
             continue;
         }
-        const PointLight& l = lights[i];
+        const SpotLight& l = lights[i];
         const glm::vec4 position(l.position, 1.0f);
         const glm::vec4 diffuse(l.intensity * (attenuation / std::numbers::pi_v<float>), 1.0f);
         const glm::vec4 none(0.0f);
@@ -255,7 +255,7 @@ void GlScene::drawFixedFunction(std::span<const PointLight> lights, bool withEmi
     glDisable(GL_LIGHTING);
 }
 
-void GlScene::drawPerFragment(std::span<const PointLight> lights, bool withEmission) {
+void GlScene::drawPerFragment(std::span<const SpotLight> lights, bool withEmission) {
     std::vector<ShaderLight> records(kLightsInShader);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         records[i] = {glm::vec4(lights[i].position, 1.0f), glm::vec4(lights[i].direction, 0.0f),
@@ -277,7 +277,7 @@ void GlScene::drawPerFragment(std::span<const PointLight> lights, bool withEmiss
         GLint linked = 0;
         glGetProgramiv(objects_->program, GL_LINK_STATUS, &linked);
         if (linked == 0)
-            throw MachineError("OpenGL cannot link the shaders: are 48 KiB too much for a uniform block?");
+            throw MachineError("OpenGL cannot link the shaders; they require a uniform block of 48 KiB");
     }
     glUseProgram(objects_->program);
     const auto location = [&](const char* name) { return glGetUniformLocation(objects_->program, name); };
@@ -307,7 +307,7 @@ void GlScene::drawWireframe() {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-void GlScene::drawOnce(std::span<const PointLight> lights, Lighting lighting) {
+void GlScene::drawOnce(std::span<const SpotLight> lights, Lighting lighting) {
     glBindFramebuffer(GL_FRAMEBUFFER, objects_->image.framebuffer);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
@@ -316,7 +316,7 @@ void GlScene::drawOnce(std::span<const PointLight> lights, Lighting lighting) {
     // Further lights are added only to the fragments that are visible with the first ones.
     std::size_t first = 0;
     do {
-        const std::span<const PointLight> batch =
+        const std::span<const SpotLight> batch =
             lights.subspan(first, std::min<std::size_t>(statistics_.lightsAtOnce, lights.size() - first));
         if (lighting == Lighting::kFixedFunction) {
             drawFixedFunction(batch, first == 0);
@@ -337,7 +337,7 @@ void GlScene::drawOnce(std::span<const PointLight> lights, Lighting lighting) {
     glDisable(GL_BLEND);
 }
 
-std::vector<glm::vec3> GlScene::draw(std::span<const PointLight> lights, const DrawOptions& options) {
+std::vector<glm::vec3> GlScene::draw(std::span<const SpotLight> lights, const DrawOptions& options) {
     GLint most = kLightsInShader;
     if (options.lighting == Lighting::kFixedFunction) glGetIntegerv(GL_MAX_LIGHTS, &most);
     statistics_.lightsAtOnce = static_cast<std::uint32_t>(most);

@@ -10,7 +10,7 @@
 
 #include "host/base/named.h"
 #include "host/scene/scene.h"
-#include "host/tools/gl/point_lights.h"
+#include "host/tools/gl/spot_lights.h"
 #include "host/tools/gl/vertices.h"
 
 namespace duolux {
@@ -51,16 +51,16 @@ class GlScene {
     GlScene& operator=(const GlScene&) = delete;
 
     /// Displayed radiance per pixel, rows from the top, neither clamped nor rounded.
-    std::vector<glm::vec3> draw(std::span<const PointLight> lights, const DrawOptions& options);
+    std::vector<glm::vec3> draw(std::span<const SpotLight> lights, const DrawOptions& options);
 
     const DrawStatistics& statistics() const { return statistics_; }
 
   private:
     struct Objects;
 
-    void drawOnce(std::span<const PointLight> lights, Lighting lighting);
-    void drawFixedFunction(std::span<const PointLight> lights, bool withEmission);
-    void drawPerFragment(std::span<const PointLight> lights, bool withEmission);
+    void drawOnce(std::span<const SpotLight> lights, Lighting lighting);
+    void drawFixedFunction(std::span<const SpotLight> lights, bool withEmission);
+    void drawPerFragment(std::span<const SpotLight> lights, bool withEmission);
     void drawWireframe();
     void drawRanges(const std::function<void(const Material&)>& setMaterial);
 

@@ -59,8 +59,8 @@ void requireDrawable(const std::string& file, const Scene& scene) {
         throw InputError(file, "display", "is not what OpenGL draws", "expected [0, 1]");
     }
     if (!pointEmitters.empty()) {
-        throw InputError(file, "lights", "have point lights",
-                         "expected emitting surfaces, for which point lights are put here");
+        throw InputError(file, "lights", "contains point lights",
+                         "expected emitting surfaces, which duolux-gl replaces with OpenGL lights");
     }
     for (const Material& material : materials) {
         const auto& [name, baseColor, metallic, roughness, sides, emission, ownReflectance] = material;
@@ -68,7 +68,7 @@ void requireDrawable(const std::string& file, const Scene& scene) {
         static_cast<void>(std::tie(roughness, ownReflectance));  // of metals; `local` is drawn
         if (metallic > 0.0f)
             throw InputError(file, fmt::format("material {}", name), "is a metal",
-                             "expected diffuse materials, which are all that is drawn here");
+                             "duolux-gl draws only diffuse materials");
     }
 }
 
@@ -111,12 +111,12 @@ void run(const Arguments& arguments) {
     const std::vector<float>& window = arguments.window;
     if (!(window[2] > 0.0f && window[3] > 0.0f && window[0] + window[2] <= 1.0f &&
           window[1] + window[3] <= 1.0f)) {
-        throw UsageError(fmt::format("--window {},{},{},{}: expected a part of the image that has an area",
+        throw UsageError(fmt::format("--window {},{},{},{}: expected a non-empty part of the image",
                                      window[0], window[1], window[2], window[3]));
     }
     std::copy(arguments.window.begin(), arguments.window.end(), options.window.begin());
-    std::vector<PointLight> lights;
-    if (options.lighting != Lighting::kWireframe) lights = pointLights(scene, tiling);
+    std::vector<SpotLight> lights;
+    if (options.lighting != Lighting::kWireframe) lights = spotLights(scene, tiling);
     if (options.lighting == Lighting::kFixedFunction && coarseness(scene, lights) > kCoarse) {
         say("duolux-gl: warning: some triangles are large against their distance from a light, and OpenGL "
             "lights them at their corners alone; use smaller ones, or --lighting per-fragment");
@@ -166,9 +166,8 @@ void run(const Arguments& arguments) {
 void parseAndRun(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{
-        "Draws a scene with OpenGL's own lighting, its luminaires replaced by point lights: the reference "
-        "for the\n"
-        "reflectance `local`, which it draws whatever the scene's own is.",
+        "Draws a scene with OpenGL's own lighting, its luminaires replaced by spot lights: the\n"
+        "reference for the reflectance `local`. The scene's own reflectance is ignored.",
         "duolux-gl"};
     setUpProgram(app);
     app.add_option("SCENE", arguments.scene, "The scene: .obj (with its .mtl), .ply or .json")->required();
@@ -177,7 +176,7 @@ void parseAndRun(int argc, char** argv) {
         ->required()
         ->type_name("FILE");
     app.add_option("--lights", arguments.lights,
-                   "Point lights of each luminaire: 5 (centre and corners of 3x3 tiles), or ROWSxCOLUMNS")
+                   "Spot lights of each luminaire: 5 (centre and corners of 3x3 tiles), or ROWSxCOLUMNS")
         ->capture_default_str()
         ->type_name("N");
     app.add_option(

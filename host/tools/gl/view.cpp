@@ -50,7 +50,8 @@ glm::mat4 projectionMatrix(const Scene& scene, const RenderSettings& settings, g
     const float widening = hasParallelRays(camera.type) ? 1.0f : nearest;
     const float halfWidth = widening * glm::length(plane.right);
     const float halfHeight = widening * glm::length(plane.up);
-    // A fragment is computed at the centre of its pixel: the image is moved by what the sample is off it.
+    // Fragments are evaluated at pixel centres, so the image is shifted by the sample's offset from the
+    // centre.
     const glm::vec2 moved =
         (jitter - 0.5f) / glm::vec2(settings.width, settings.height) * glm::vec2(window[2], window[3]);
     const auto x = [&](float fraction) { return (2.0f * (fraction + moved.x) - 1.0f) * halfWidth; };

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "host/base/error.h"
-#include "host/tools/gl/point_lights.h"
+#include "host/tools/gl/spot_lights.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/scene_builder.h"
 
-// The point lights' irradiance against Lambert's polygon formula for the luminaire they stand for.
+// The spot lights' irradiance against Lambert's polygon formula for the luminaire they stand for.
 
 namespace duolux::test {
 namespace {
@@ -45,9 +45,9 @@ struct Luminaire {
 };
 
 /// Sum over the lights of I max(cos, 0)^1 cos / r^2: Warn's model.
-double irradiance(const std::vector<PointLight>& lights, const Vec3& point, const Vec3& normal) {
+double irradiance(const std::vector<SpotLight>& lights, const Vec3& point, const Vec3& normal) {
     double sum = 0.0;
-    for (const PointLight& light : lights) {
+    for (const SpotLight& light : lights) {
         const Vec3 toLight = Vec3(light.position) - point;
         const double r = glm::length(toLight);
         const Vec3 w = toLight / r;
@@ -57,7 +57,7 @@ double irradiance(const std::vector<PointLight>& lights, const Vec3& point, cons
     return sum;
 }
 
-TEST(PointLights, ManyTilesConvergeToLambertsFormula) {
+TEST(SpotLights, ManyTilesConvergeToLambertsFormula) {
     const Luminaire luminaire;
     for (const auto& [point, normal] :
          {std::pair(Vec3(0, 0, 0), Vec3(0, 1, 0)), {Vec3(2, 0.5, -1), glm::normalize(Vec3(-1, 2, 0.5))}}) {
@@ -65,7 +65,7 @@ TEST(PointLights, ManyTilesConvergeToLambertsFormula) {
         double last = 1.0;
         for (const char* tiling : {"2x2", "8x8", "32x32"}) {
             const double error = std::abs(
-                irradiance(pointLights(luminaire.scene, Tiling::parse(tiling)), point, normal) / exact - 1.0);
+                irradiance(spotLights(luminaire.scene, Tiling::parse(tiling)), point, normal) / exact - 1.0);
             EXPECT_LT(error, last / 8.0) << tiling;  // a factor of 16 for a quarter of the tile width
             last = error;
         }
@@ -73,41 +73,41 @@ TEST(PointLights, ManyTilesConvergeToLambertsFormula) {
     }
 }
 
-TEST(PointLights, AllTilingsHaveTheSamePower) {
+TEST(SpotLights, AllTilingsHaveTheSamePower) {
     const Luminaire luminaire;
     const double far = 1e4;
     const double exact = luminaire.exactIrradiance({0, -far, 0}, {0, 1, 0});
     for (const char* tiling : {"5", "1x1", "3x3", "2x7"}) {
-        const auto lights = pointLights(luminaire.scene, Tiling::parse(tiling));
+        const auto lights = spotLights(luminaire.scene, Tiling::parse(tiling));
         EXPECT_NEAR(irradiance(lights, {0, -far, 0}, {0, 1, 0}) / exact, 1.0, 1e-5) << tiling;
     }
 }
 
-TEST(PointLights, FiveAreCentreAndCorners) {
+TEST(SpotLights, FiveAreCentreAndCorners) {
     const Luminaire luminaire;
-    const auto lights = pointLights(luminaire.scene, Tiling::parse("5"));
+    const auto lights = spotLights(luminaire.scene, Tiling::parse("5"));
     ASSERT_EQ(lights.size(), 5u);
     const auto& c = luminaire.corners;
     const auto at = [&](float s, float t) { return c[0] + s * (c[1] - c[0]) + t * (c[3] - c[0]); };
     for (const glm::vec3& expected : {at(0.5f, 0.5f), at(1 / 6.f, 1 / 6.f), at(5 / 6.f, 1 / 6.f),
                                       at(1 / 6.f, 5 / 6.f), at(5 / 6.f, 5 / 6.f)}) {
         EXPECT_TRUE(std::ranges::any_of(
-            lights, [&](const PointLight& l) { return glm::length(l.position - expected) < 1e-5f; }));
+            lights, [&](const SpotLight& l) { return glm::length(l.position - expected) < 1e-5f; }));
     }
-    for (const PointLight& light : lights)
+    for (const SpotLight& light : lights)
         EXPECT_LT(glm::length(light.direction - glm::vec3(0, -1, 0)), 1e-6f);
 }
 
-TEST(PointLights, LightsOfBothSidesShineBothWays) {
-    const auto lights = pointLights(Luminaire(Sides::kBoth).scene, Tiling::parse("3x3"));
+TEST(SpotLights, LightsOfBothSidesShineBothWays) {
+    const auto lights = spotLights(Luminaire(Sides::kBoth).scene, Tiling::parse("3x3"));
     EXPECT_EQ(lights.size(), 18u);
     EXPECT_NEAR(irradiance(lights, {0, 4, 0}, {0, -1, 0}), irradiance(lights, {0, 0, 0}, {0, 1, 0}), 1e-5);
 }
 
-TEST(PointLights, WhatIsNoParallelogramIsRefused) {
+TEST(SpotLights, WhatIsNoParallelogramIsRefused) {
     const auto error = [](const LoadedScene& scene) {
         try {
-            pointLights(scene, Tiling::parse("5"));
+            spotLights(scene, Tiling::parse("5"));
         } catch (const InputError& e) {
             return std::string(e.what());
         }
@@ -122,7 +122,7 @@ TEST(PointLights, WhatIsNoParallelogramIsRefused) {
     EXPECT_THAT(error(dark), HasSubstr("nothing emits invisible light"));
 }
 
-TEST(PointLights, AStripOfQuadrilateralsIsSeveralLuminaires) {
+TEST(SpotLights, AStripOfQuadrilateralsIsSeveralLuminaires) {
     SceneBuilder builder;
     Material lamp;
     lamp.emission = {glm::vec3(kRadiance), glm::vec3(0.0f), Sides::kFront};
@@ -131,13 +131,13 @@ TEST(PointLights, AStripOfQuadrilateralsIsSeveralLuminaires) {
         const auto x = static_cast<float>(i);
         builder.quad({x, 2, 0}, {x + 1, 2, 0}, {x + 1, 2, 1}, {x, 2, 1}, index);
     }
-    const auto lights = pointLights(builder.scene, Tiling::parse("1x1"));
+    const auto lights = spotLights(builder.scene, Tiling::parse("1x1"));
     ASSERT_EQ(lights.size(), 5u);
-    for (const PointLight& light : lights)
+    for (const SpotLight& light : lights)
         EXPECT_NEAR(light.position.x - std::floor(light.position.x), 0.5f, 1e-5f);
 }
 
-TEST(PointLights, TilingsAreChecked) {
+TEST(SpotLights, TilingsAreChecked) {
     for (const char* wrong : {"", "6", "3x", "x3", "0x3", "3x257", "3x3x3", "-1x2", "3*3"})
         EXPECT_THROW(Tiling::parse(wrong), UsageError) << wrong;
 }

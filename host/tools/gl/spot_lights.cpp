@@ -1,4 +1,4 @@
-#include "host/tools/gl/point_lights.h"
+#include "host/tools/gl/spot_lights.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ std::optional<Parallelogram> join(const std::array<glm::dvec3, 3>& a, const std:
     return std::nullopt;
 }
 
-void addLights(std::vector<PointLight>& lights, const Parallelogram& p, const Emission& emission,
+void addLights(std::vector<SpotLight>& lights, const Parallelogram& p, const Emission& emission,
                const Tiling& tiling) {
     const glm::dvec3 cross = glm::cross(p.edge1, p.edge2);
     const double area = glm::length(cross);
@@ -73,7 +73,7 @@ Tiling Tiling::parse(std::string_view text) {
     return tiling;
 }
 
-std::vector<PointLight> pointLights(const Scene& scene, const Tiling& tiling) {
+std::vector<SpotLight> spotLights(const Scene& scene, const Tiling& tiling) {
     const Geometry& geometry = scene.geometry;
     struct Emitter {
         std::array<glm::dvec3, 3> corners;
@@ -97,13 +97,12 @@ std::vector<PointLight> pointLights(const Scene& scene, const Tiling& tiling) {
     if (emitters.empty()) {
         throw InputError(scene.source.string(), "", "nothing emits invisible light", "expected a luminaire");
     }
-    std::vector<PointLight> lights;
+    std::vector<SpotLight> lights;
     while (!emitters.empty()) {
         const Emitter emitter = emitters.back();
         emitters.pop_back();
         std::optional<Parallelogram> parallelogram;
-        // The two triangles of a quadrilateral follow each other: the nearest first, or a strip is joined
-        // askew.
+        // Searches the nearest triangles first; otherwise a strip of quadrilaterals would be paired wrongly.
         for (std::size_t i = emitters.size(); i-- > 0 && !parallelogram;) {
             if (emitters[i].material != emitter.material) continue;
             parallelogram = join(emitter.corners, emitters[i].corners);
@@ -120,7 +119,7 @@ std::vector<PointLight> pointLights(const Scene& scene, const Tiling& tiling) {
     return lights;
 }
 
-float coarseness(const Scene& scene, const std::vector<PointLight>& lights) {
+float coarseness(const Scene& scene, const std::vector<SpotLight>& lights) {
     const Geometry& geometry = scene.geometry;
     float largest = 0.0f;
     for (const glm::uvec3& t : geometry.triangles) {
@@ -128,7 +127,7 @@ float coarseness(const Scene& scene, const std::vector<PointLight>& lights) {
         const glm::vec3 b = geometry.positions[t.y];
         const glm::vec3 c = geometry.positions[t.z];
         const float edge = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-        for (const PointLight& light : lights) {
+        for (const SpotLight& light : lights) {
             const glm::vec3 offset = (a + b + c) / 3.0f - light.position;
             if (glm::dot(offset, light.direction) > 0.0f)
                 largest = std::max(largest, edge / glm::length(offset));
