@@ -11,9 +11,9 @@
 #include "host/scene/emitters.h"
 #include "host/scene/energy.h"
 #include "host/scene/mesh.h"
-#include "host/view/default_light.h"
 #include "host/view/emitter_sides.h"
 #include "host/view/frame_camera.h"
+#include "host/view/lamp.h"
 
 namespace duolux {
 
@@ -70,7 +70,7 @@ class View {
         return brightnessFor(scene_.camera, aspect_, surface_, illumination_, samples_) < kDark;
     }
 
-    void addLamp() { addDefaultLight(scene_, surface_); }
+    void addLamp() { duolux::addLamp(scene_, surface_); }
 
   private:
     LoadedScene& scene_;
@@ -118,8 +118,8 @@ void chooseView(LoadedScene& scene, const SceneFile& read, const SceneChoices& c
         scene.warnings.push_back(fmt::format("nothing emits light: {}", out));
     } else if (view.dark()) {
         view.addLamp();
-        scene.warnings.push_back(fmt::format(
-            "the emitters would show white surfaces at less than {} % of white: {}", kDarkPercent, out));
+        scene.warnings.push_back(
+            fmt::format("white surfaces would appear at less than {} % of white: {}", kDarkPercent, out));
     }
 }
 

@@ -16,7 +16,7 @@ using testing::StartsWith;
 
 class LenientTest : public SceneFiles {
   protected:
-    /// The warnings for a square (1 2 3 4) and more statements, without the one of the default light.
+    /// The warnings for a square (1 2 3 4) and more statements, without the one of the lamp.
     std::vector<std::string> warningsOf(const std::string& more) const {
         return withoutLight(textsOf(loadObj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + more).warnings));
     }

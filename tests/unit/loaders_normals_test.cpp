@@ -78,7 +78,7 @@ TEST_F(NormalsTest, SmoothingGroupAveragesOverTheEdge) {
                         IsNear(onEdge ? glm::vec3(-half, 0, half) : own, 1e-6f));
         }
     }
-    EXPECT_TRUE(normalsOf(geometry, 4).empty()) << "the default light is flat";
+    EXPECT_TRUE(normalsOf(geometry, 4).empty()) << "the lamp is flat";
 }
 
 TEST_F(NormalsTest, DifferentGroupsDoNotMix) {

@@ -13,7 +13,7 @@ using testing::StartsWith;
 
 class ObjTest : public SceneFiles {
   protected:
-    /// Removes the default light, which comes last.
+    /// Removes the lamp, which comes last.
     Geometry load(std::string_view text) const {
         Geometry geometry = loadObj(text).geometry;
         geometry.triangles.resize(geometry.triangles.size() - 2);
@@ -69,7 +69,7 @@ TEST_F(ObjTest, ObjectsAndGroupsAreOneGeometry) {
         "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\ng a b\nf 1 2 3\no two\ng\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf 4 5 6\nl 1 "
         "2\np 3\n");
     EXPECT_EQ(geometry.triangles.size(), 2u);
-    EXPECT_EQ(geometry.positions.size(), 6u + 4u);  // and the default light's
+    EXPECT_EQ(geometry.positions.size(), 6u + 4u);  // and the lamp's
 }
 
 TEST_F(ObjTest, QuadrilateralIsCutOnceAndKeepsItsFront) {

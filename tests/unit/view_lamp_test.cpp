@@ -11,10 +11,10 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class LightTest : public SceneFiles {
+class LampTest : public SceneFiles {
   protected:
     /// The two added triangles come last.
-    static void expectDefaultLight(const LoadedScene& scene) {
+    static void expectLamp(const LoadedScene& scene) {
         const Geometry& geometry = scene.geometry;
         const std::size_t first = geometry.triangles.size() - 2;
         const Material& material = scene.materials[geometry.materials[first]];
@@ -32,7 +32,7 @@ class LightTest : public SceneFiles {
     }
 
     /// Radiance of a small white patch in the middle of the view, as far away as the middle of the scene,
-    /// that faces the light. Subdivides the light.
+    /// that faces the lamp. Subdivides the lamp.
     static float radianceOfWhite(const LoadedScene& scene) {
         const Geometry& geometry = scene.geometry;
         Geometry seen = geometry;
@@ -66,37 +66,37 @@ class LightTest : public SceneFiles {
     }
 };
 
-TEST_F(LightTest, IsAddedToADarkObjWithAWarning) {
+TEST_F(LampTest, IsAddedToADarkObjWithAWarning) {
     const LoadedScene scene = loadObj(kTriangleObj);
     ASSERT_EQ(scene.geometry.triangles.size(), 3u);
-    expectDefaultLight(scene);
+    expectLamp(scene);
     EXPECT_THAT(textsOf(scene.warnings),
                 testing::ElementsAre(HasSubstr("nothing emits light: a lamp is added")));
     EXPECT_NEAR(radianceOfWhite(scene), 0.8f, 0.04f);
 }
 
-TEST_F(LightTest, LooksTheSameAtEveryScale) {
+TEST_F(LampTest, LooksTheSameAtEveryScale) {
     for (const char* size : {"0.001", "1000000"}) {
         const std::string s(size);
         const LoadedScene scene = loadObj("v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nf 1 2 3\n");
-        expectDefaultLight(scene);
+        expectLamp(scene);
         EXPECT_NEAR(radianceOfWhite(scene), 0.8f, 0.04f);
     }
 }
 
-TEST_F(LightTest, IsNotAddedIfSomethingEmits) {
+TEST_F(LampTest, IsNotAddedIfSomethingEmits) {
     write("m.mtl", "newmtl lamp\nKe 1 1 1\n");
     const LoadedScene scene = loadObj("mtllib m.mtl\nusemtl lamp\n" + std::string(kTriangleObj));
     EXPECT_EQ(scene.geometry.triangles.size(), 1u);
     EXPECT_THAT(textsOf(scene.warnings), IsEmpty());
 }
 
-TEST_F(LightTest, AnUnusedEmitterDoesNotCount) {
+TEST_F(LampTest, AnUnusedEmitterDoesNotCount) {
     write("m.mtl", "newmtl lamp\nKe 1 1 1\n");
-    expectDefaultLight(loadObj("mtllib m.mtl\n" + std::string(kTriangleObj)));
+    expectLamp(loadObj("mtllib m.mtl\n" + std::string(kTriangleObj)));
 }
 
-TEST_F(LightTest, IsNotAddedWhereNoSurfaceScatters) {
+TEST_F(LampTest, IsNotAddedWhereNoSurfaceScatters) {
     write("m.mtl", "newmtl black\nKd 0 0 0\nnewmtl dim\nKd 0 0 0\nKe 0.01 0 0\n");
     write("mesh.obj", "mtllib m.mtl\nusemtl black\n" + std::string(kTriangleObj));
     const LoadedScene dark = load("mesh.obj");
@@ -111,14 +111,14 @@ TEST_F(LightTest, IsNotAddedWhereNoSurfaceScatters) {
     EXPECT_EQ(seen.geometry.triangles.size(), 2u);
 }
 
-TEST_F(LightTest, JsonThatSaysLightsGetsNoOther) {
+TEST_F(LampTest, JsonThatSaysLightsGetsNoOther) {
     write("mesh.obj", kTriangleObj);
     const LoadedScene dark = loadJson(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "lights": []})");
     EXPECT_EQ(dark.geometry.triangles.size(), 1u);
     EXPECT_THAT(textsOf(dark.warnings), testing::ElementsAre(HasSubstr("the picture will be black")));
 }
 
-TEST_F(LightTest, JsonWithoutLightsGetsOneBehindItsCamera) {
+TEST_F(LampTest, JsonWithoutLightsGetsOneBehindItsCamera) {
     write("mesh.obj", kTriangleObj);
     for (const char* camera : {R"({"position": [0, 0, -3], "target": [0, 0, 0]})",
                                R"({"position": [9, 9, 9], "target": [20, 9, 9], "vfov": 170})",
@@ -126,7 +126,7 @@ TEST_F(LightTest, JsonWithoutLightsGetsOneBehindItsCamera) {
         const LoadedScene scene = loadJson(
             std::string(R"({"duolux": 1, "objects": [{"mesh": "mesh.obj"}], "camera": )") + camera + "}");
         ASSERT_EQ(scene.geometry.triangles.size(), 3u);
-        expectDefaultLight(scene);
+        expectLamp(scene);
     }
 }
 
@@ -136,20 +136,20 @@ std::string planeAndLamp(const char* radiance) {
            radiance + "\nv 0 1 0\nv .1 1 0\nv .1 1 .1\nv 0 1 .1\nf 5 6 7 8\n";
 }
 
-TEST_F(LightTest, EmittersThatLightNearlyNothingDoNotCount) {
+TEST_F(LampTest, EmittersThatLightNearlyNothingDoNotCount) {
     write("m.mtl", "newmtl dim\nKe 0.01 0 0\nnewmtl bright\nKe 200 200 200\n");
     const LoadedScene dim = loadObj(planeAndLamp("dim"));
-    expectDefaultLight(dim);
+    expectLamp(dim);
     EXPECT_THAT(textsOf(dim.warnings), testing::ElementsAre(HasSubstr("less than 5 % of white")));
     const LoadedScene bright = loadObj(planeAndLamp("bright"));
     EXPECT_EQ(bright.geometry.triangles.size(), 4u);
     EXPECT_THAT(textsOf(bright.warnings), IsEmpty());
 }
 
-TEST_F(LightTest, IsAddedOrLeftOutAsTheCallerSays) {
+TEST_F(LampTest, IsAddedOrLeftOutAsTheCallerSays) {
     write("m.mtl", "newmtl dim\nKe 0.01 0 0\nnewmtl bright\nKe 200 200 200\n");
     const auto file = write("mesh.obj", planeAndLamp("bright"));
-    expectDefaultLight(loadScene(file, {.lamp = Lamp::kAlways}));
+    expectLamp(loadScene(file, {.lamp = Lamp::kAlways}));
     write("mesh.obj", planeAndLamp("dim"));
     const LoadedScene none = loadScene(file, {.lamp = Lamp::kNever});
     EXPECT_EQ(none.geometry.triangles.size(), 4u);
@@ -158,7 +158,7 @@ TEST_F(LightTest, IsAddedOrLeftOutAsTheCallerSays) {
     EXPECT_THAT(textsOf(dark.warnings), testing::ElementsAre(HasSubstr("the picture will be black")));
 }
 
-TEST_F(LightTest, StandsInsideAClosedRoomOutOfView) {
+TEST_F(LampTest, StandsInsideAClosedRoomOutOfView) {
     const LoadedScene scene = loadObj(
         "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\nv -2 2 -2\nv 2 2 -2\nv 2 2 2\nv -2 2 2\n"
         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n");

@@ -1,4 +1,4 @@
-#include "host/view/default_light.h"
+#include "host/view/lamp.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace duolux {
 
 namespace {
 
-/// A place for the luminaire, in the coordinates of the scene.
+/// A place for the lamp, in the coordinates of the scene.
 struct Place {
     glm::vec3 centre;
     Rectangle rectangle;
@@ -72,10 +72,11 @@ std::optional<Place> openPlace(const Surface& surface, const Camera& camera, flo
 
 /// Whether all corners are beyond one of the planes that bound the view.
 bool isOutOfView(const Place& place, const Camera& camera, float aspect) {
-    constexpr float kMargin = 1.1f;
+    constexpr float kViewMargin = 1.1f;
     const ViewFrame frame(camera);
     const ImagePlane plane = imagePlane(camera, static_cast<double>(aspect));
-    const float halfWidth = kMargin * glm::length(plane.right), halfHeight = kMargin * glm::length(plane.up);
+    const float halfWidth = kViewMargin * glm::length(plane.right);
+    const float halfHeight = kViewMargin * glm::length(plane.up);
     const auto& [origin, edge1, edge2] = place.rectangle;
     bool behind = true, above = true, below = true, left = true, right = true;
     for (const glm::vec3& corner : {origin, origin + edge1, origin + edge2, origin + edge1 + edge2}) {
@@ -92,27 +93,27 @@ bool isOutOfView(const Place& place, const Camera& camera, float aspect) {
     return behind || above || below || left || right;
 }
 
-/// The place with the most clearance around the camera that is out of view: walls close to a luminaire would
-/// be too bright.
+/// The place with the most clearance around the camera that is out of view: walls close to a lamp would be
+/// too bright.
 Place enclosedPlace(const Surface& surface, const Camera& camera, float aspect, float distance,
                     const glm::vec3& lit) {
-    constexpr int kDirections = 96, kProbes = 32;
+    constexpr int kCandidateRays = 96, kClearanceRays = 32;
     const ViewFrame frame(camera);
     const glm::vec3 eye = surface.toLocal(glm::dvec3(camera.position));
     const glm::vec3 aim = surface.toLocal(glm::dvec3(lit));
     const auto clearance = [&](const glm::vec3& point) {
         float least = 1.0f;
-        for (int k = 0; k < kProbes; ++k) {
-            if (const auto hit = surface.firstHit(point, onSphere(k, kProbes)))
+        for (int k = 0; k < kClearanceRays; ++k) {
+            if (const auto hit = surface.firstHit(point, onSphere(k, kClearanceRays)))
                 least = std::min(least, hit->distance);
         }
         return least;
     };
-    // The fallback is a tiny luminaire just behind the camera.
+    // The fallback is a tiny lamp just behind the camera.
     Place best = placeOf(camera.position - 1e-3f * distance * frame.forward, 1e-3f * distance, lit, frame.up);
     float most = 0.0f;
-    for (int i = 0; i < kDirections; ++i) {
-        const glm::vec3 direction = onSphere(i, kDirections);
+    for (int i = 0; i < kCandidateRays; ++i) {
+        const glm::vec3 direction = onSphere(i, kCandidateRays);
         const auto hit = surface.firstHit(eye, direction);
         const float way = hit ? hit->distance : 1.0f;
         for (const float part : {0.3f, 0.5f, 0.7f}) {
@@ -131,7 +132,7 @@ Place enclosedPlace(const Surface& surface, const Camera& camera, float aspect, 
     return best;
 }
 
-/// Scales the emission of the luminaire (the last triangles of the scene) so that the mean radiance of white
+/// Scales the emission of the lamp (the last triangles of the scene) so that the mean radiance of white
 /// surfaces in view is `wanted`.
 void calibrate(LoadedScene& scene, std::size_t firstTriangle, float wanted) {
     if (scene.geometry.triangles.size() == firstTriangle) return;
@@ -142,7 +143,7 @@ void calibrate(LoadedScene& scene, std::size_t firstTriangle, float wanted) {
     lookThrough(scene.camera, scene.settings.aspect(), surface,
                 [&](const SurfacePoint& point, std::uint32_t seed) {
                     if (!scatters(surface.materialOf(point.triangle), point.front)) return;
-                    constexpr float kMost = 4.0f;  // limits the unbounded values close to the luminaire
+                    constexpr float kMost = 4.0f;  // limits the unbounded values close to the lamp
                     sum += static_cast<double>(std::min(illumination.onWhite(point, seed, 2), kMost));
                     count += 1.0;
                 });
@@ -166,12 +167,12 @@ float brightnessFor(const Camera& camera, float aspect, const Surface& surface,
     return std::max(seen, samples.brightness());
 }
 
-void addDefaultLight(LoadedScene& scene, const Surface& surface) {
+void addLamp(LoadedScene& scene, const Surface& surface) {
     const glm::vec3 lower(surface.bulk().lower), upper(surface.bulk().upper);
     const Camera& camera = scene.camera;
     const glm::vec3 forward = ViewFrame(camera).forward;
 
-    // The luminaire lights the middle of the scene, or the target if the camera is inside the scene.
+    // The lamp lights the middle of the scene, or the target if the camera is inside the scene.
     const bool inside =
         glm::all(glm::greaterThan(camera.position, lower)) && glm::all(glm::lessThan(camera.position, upper));
     const float ahead = glm::dot(0.5f * (lower + upper) - camera.position, forward);
