@@ -28,10 +28,11 @@ std::string renderReport(const LoadedScene& scene, SampleRange samples, const De
                          const RenderStatistics& statistics, const StageSeconds& seconds) {
     const std::uint64_t rays = statistics.cameraRays + statistics.lightRays + statistics.bounceRays +
                                statistics.shadowRays + statistics.emitterRays;
-    const bool shot = scene.settings.integrator == Integrator::kLightTracer;
+    const bool lightTracer = scene.settings.integrator == Integrator::kLightTracer;
     const char* directLight =
-        shot ? "light paths"
-             : nameOf(statistics.directLightInClosedForm ? DirectLight::kClosedForm : DirectLight::kSampled);
+        lightTracer
+            ? "light paths"
+            : nameOf(statistics.directLightInClosedForm ? DirectLight::kClosedForm : DirectLight::kSampled);
     nlohmann::ordered_json report;
     report["version"] = 1;
     report["program"] = {{"name", "duolux"}, {"version", versionString()}, {"commit", commitString()}};

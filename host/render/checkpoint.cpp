@@ -183,14 +183,14 @@ Checkpoint parse(std::string_view bytes, const Fail& fail) {
     film.at("light_paths").get_to(contents.lightPaths);
     film.at("carries").get_to(contents.carries);
     const std::size_t pixels = std::size_t{contents.width} * contents.height;
-    const bool light = film.at("light_sums").get<bool>();
+    const bool hasLightPaths = film.at("light_sums").get<bool>();
     const std::size_t channels = channelsOf(contents.layers);
-    if (bytes.size() != pixels * (sizeof(std::uint32_t) + (light ? 2 : 1) * sizeof(Film::PixelSum) +
+    if (bytes.size() != pixels * (sizeof(std::uint32_t) + (hasLightPaths ? 2 : 1) * sizeof(Film::PixelSum) +
                                   channels * sizeof(std::int64_t)))
         fail(kPartsDoNotFit);
     contents.samples = take<Film::Samples>(bytes, pixels);
     contents.sums = take<Film::Sums>(bytes, pixels);
-    if (light) contents.lightPathSums = take<Film::Sums>(bytes, pixels);
+    if (hasLightPaths) contents.lightPathSums = take<Film::Sums>(bytes, pixels);
     contents.layerSums = take<Film::LayerSums>(bytes, pixels * channels);
     return {std::move(origin),
             {Film(std::move(contents)), film.at("last_bounce").get<double>(),
@@ -269,8 +269,8 @@ Checkpoint readCheckpoint(const std::filesystem::path& path) {
 
 std::uint32_t samplesTaken(const Film& film) {
     const std::uint64_t pixels = std::uint64_t{film.width()} * film.height();
-    const std::uint64_t light = (film.lightPaths() + pixels - 1) / pixels;
-    return std::max(static_cast<std::uint32_t>(light), std::ranges::max(film.samples()));
+    const std::uint64_t pathsPerPixel = (film.lightPaths() + pixels - 1) / pixels;
+    return std::max(static_cast<std::uint32_t>(pathsPerPixel), std::ranges::max(film.samples()));
 }
 
 void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& origin, const FilmOrigin& wanted,

@@ -156,8 +156,8 @@ class LightTracer {
         }
     }
 
-    void receive(LightTracerKernel& kernel, unsigned place, Batch& batch) {
-        const LightTracerKernel::Results results = kernel.wait(place);
+    void receive(LightTracerKernel& kernel, unsigned slot, Batch& batch) {
+        const LightTracerKernel::Results results = kernel.wait(slot);
         context_.received(results.deviceSeconds, results.range.count);
         if (!results.complete) {
             takeLess(kernel, results);

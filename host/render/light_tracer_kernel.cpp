@@ -106,30 +106,30 @@ std::uint64_t LightTracerKernel::deviceBytes() const {
     return bytes;
 }
 
-void LightTracerKernel::submit(unsigned place, const PathRange& range, float quantum) {
+void LightTracerKernel::submit(unsigned slot, const PathRange& range, float quantum) {
     assert(range.count > 0 && range.count <= maxPaths_);
     const std::uint32_t teamPaths = teams_.share(range.count, lanePaths_);
     const std::uint32_t lanes = (range.count + teamPaths - 1) / teamPaths * teams_.lanes();
-    submitted_[place] = {range, teamPaths, lanes};
+    submitted_[slot] = {range, teamPaths, lanes};
     const shared::LightTracerDispatch push{static_cast<std::uint32_t>(range.first),
                                            static_cast<std::uint32_t>(range.first >> 32),
                                            range.count,
                                            teamPaths,
-                                           place * maxLanes_,
-                                           teams_.firstTeam(place),
+                                           slot * maxLanes_,
+                                           teams_.firstTeam(slot),
                                            1.0f / quantum};
-    commands_[place].submit("tracing light paths", [&](const Commands& commands) {
-        teams_.record(commands, kernel_, push, place, range.count, teamPaths);
+    commands_[slot].submit("tracing light paths", [&](const Commands& commands) {
+        teams_.record(commands, kernel_, push, slot, range.count, teamPaths);
     });
 }
 
-LightTracerKernel::Results LightTracerKernel::wait(unsigned place) {
-    const double seconds = commands_[place].wait("tracing light paths");
+LightTracerKernel::Results LightTracerKernel::wait(unsigned slot) {
+    const double seconds = commands_[slot].wait("tracing light paths");
     results_.invalidate();
-    const auto& [range, teamPaths, lanes] = submitted_[place];
+    const auto& [range, teamPaths, lanes] = submitted_[slot];
     const auto* results =
-        reinterpret_cast<const shared::LaneResult*>(results_.mapped()) + std::size_t{place} * maxLanes_;
-    return {range, teamPaths / teams_.lanes(), teams_.complete(place), {results, lanes}, seconds};
+        reinterpret_cast<const shared::LaneResult*>(results_.mapped()) + std::size_t{slot} * maxLanes_;
+    return {range, teamPaths / teams_.lanes(), teams_.complete(slot), {results, lanes}, seconds};
 }
 
 void LightTracerKernel::takeFilm(Film& film, bool& partly) {

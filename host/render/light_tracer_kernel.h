@@ -47,10 +47,10 @@ class LightTracerKernel {
     std::uint32_t lanePaths() const { return lanePaths_; }
     void limitLanePaths(std::uint32_t paths) { lanePaths_ = std::min(lanePaths_, paths); }
 
-    /// Submits a dispatch of at most maxPaths() paths. Two may be in flight, in the places 0 and 1. Each adds
+    /// Submits a dispatch of at most maxPaths() paths. Two may be in flight, in the slots 0 and 1. Each adds
     /// to the film on the device, whose unit is `quantum`. Throws MachineError if the device fails, as do all
     /// functions below.
-    void submit(unsigned place, const PathRange& range, float quantum);
+    void submit(unsigned slot, const PathRange& range, float quantum);
 
     struct Results {
         PathRange range;
@@ -59,8 +59,8 @@ class LightTracerKernel {
         std::span<const shared::LaneResult> lanes;
         double deviceSeconds;
     };
-    /// Waits for the dispatch in a place. The results are valid until the next submit to the same place.
-    Results wait(unsigned place);
+    /// Waits for the dispatch in a slot. The results are valid until the next submit to the same slot.
+    Results wait(unsigned slot);
 
     /// Adds the sums on the device to a film of the scene's size and quantum. No dispatch may be in flight.
     /// `partly` is true while only some of the pixels have been added.

@@ -136,11 +136,11 @@ class PathTracer {
 
     /// Waits for a dispatch and adds its results. If the driver ended its loops early, the dispatch is traced
     /// again with less work per team.
-    void receive(PathTracerKernel& kernel, unsigned place, Schedule& schedule) {
-        const PathTracerKernel::Results results = kernel.wait(place);
+    void receive(PathTracerKernel& kernel, unsigned slot, Schedule& schedule) {
+        const PathTracerKernel::Results results = kernel.wait(slot);
         context_.received(results.deviceSeconds, results.range.size());
         if (results.complete) {
-            add(kernel.addTo(context_.film, place), results.range);
+            add(kernel.addTo(context_.film, slot), results.range);
             schedule.traced(results.range);
             return;
         }

@@ -48,7 +48,7 @@ std::vector<Specialization> pathTracerSpecialization(const RenderInputs& inputs,
     if (deviceScene.transport.emitterChoices == 0) directLight = shared::kDirectLightNone;
     std::vector<Specialization> constants = sceneSpecialization(inputs);
     constants.push_back({shared::kSpecDirectLight, directLight});
-    constants.push_back({shared::kSpecHasEmitters, !deviceScene.emittingTriangles.empty()});
+    constants.push_back({shared::kSpecEmittingTriangles, !deviceScene.emittingTriangles.empty()});
     constants.push_back({shared::kSpecFilmLayers, inputs.settings.layers});
     return constants;
 }
@@ -83,29 +83,29 @@ std::uint64_t PathTracerKernel::deviceBytes() const {
            teams_.deviceBytes();
 }
 
-void PathTracerKernel::submit(unsigned place, const WorkRange& range, float quantum) {
+void PathTracerKernel::submit(unsigned slot, const WorkRange& range, float quantum) {
     assert(range.pixels <= maxPixels_ && range.samples <= std::min(kMaxSamples, laneSamples_));
     const std::uint32_t teamPixels = teams_.share(range.pixels, laneSamples_ / range.samples);
-    submitted_[place] = {range, teamPixels};
-    const shared::PathTracerDispatch push{range.firstPixel,        range.pixels,  range.firstSample,
-                                          range.samples,           teamPixels,    place * maxPixels_,
-                                          teams_.firstTeam(place), 1.0f / quantum};
-    commands_[place].submit("tracing paths", [&](const Commands& commands) {
-        teams_.record(commands, kernel_, push, place, range.pixels, teamPixels);
+    submitted_[slot] = {range, teamPixels};
+    const shared::PathTracerDispatch push{range.firstPixel,       range.pixels,  range.firstSample,
+                                          range.samples,          teamPixels,    slot * maxPixels_,
+                                          teams_.firstTeam(slot), 1.0f / quantum};
+    commands_[slot].submit("tracing paths", [&](const Commands& commands) {
+        teams_.record(commands, kernel_, push, slot, range.pixels, teamPixels);
     });
 }
 
-PathTracerKernel::Results PathTracerKernel::wait(unsigned place) {
-    const double seconds = commands_[place].wait("tracing paths");
-    const auto& [range, teamPixels] = submitted_[place];
-    return {range, teamPixels / teams_.lanes() * range.samples, teams_.complete(place), seconds};
+PathTracerKernel::Results PathTracerKernel::wait(unsigned slot) {
+    const double seconds = commands_[slot].wait("tracing paths");
+    const auto& [range, teamPixels] = submitted_[slot];
+    return {range, teamPixels / teams_.lanes() * range.samples, teams_.complete(slot), seconds};
 }
 
-PathTracerKernel::Totals PathTracerKernel::read(unsigned place) {
+PathTracerKernel::Totals PathTracerKernel::read(unsigned slot) {
     results_.invalidate();
-    const WorkRange& range = submitted_[place].range;
+    const WorkRange& range = submitted_[slot].range;
     const auto* results =
-        reinterpret_cast<const shared::PixelResult*>(results_.mapped()) + std::size_t{place} * maxPixels_;
+        reinterpret_cast<const shared::PixelResult*>(results_.mapped()) + std::size_t{slot} * maxPixels_;
     Totals totals;
     sums_.resize(range.pixels);
     for (std::size_t i = 0; i < range.pixels; ++i) {
@@ -126,13 +126,13 @@ PathTracerKernel::Totals PathTracerKernel::read(unsigned place) {
     return totals;
 }
 
-PathTracerKernel::Totals PathTracerKernel::addTo(Film& film, unsigned place) {
-    const Totals totals = read(place);
-    const WorkRange& range = submitted_[place].range;
+PathTracerKernel::Totals PathTracerKernel::addTo(Film& film, unsigned slot) {
+    const Totals totals = read(slot);
+    const WorkRange& range = submitted_[slot].range;
     layerResults_.invalidate();
     const std::size_t count = std::size_t{range.pixels} * layerChannels_;
     const auto* words = reinterpret_cast<const std::uint32_t*>(layerResults_.mapped()) +
-                        2 * std::size_t{place} * maxPixels_ * layerChannels_;
+                        2 * std::size_t{slot} * maxPixels_ * layerChannels_;
     layerSums_.resize(count);
     for (std::size_t i = 0; i < count; ++i)
         layerSums_[i] = signed64(words[2 * i], words[2 * i + 1]);
@@ -140,10 +140,10 @@ PathTracerKernel::Totals PathTracerKernel::addTo(Film& film, unsigned place) {
     return totals;
 }
 
-FirstLook PathTracerKernel::look(unsigned place) {
+FirstLook PathTracerKernel::look(unsigned slot) {
     FirstLook look;
-    look.clamped = read(place).clamped;
-    look.samples = submitted_[place].range.size();
+    look.clamped = read(slot).clamped;
+    look.samples = submitted_[slot].range.size();
     for (const Film::PixelSum& sum : sums_) {
         for (int c = 0; c < 3; ++c) {
             look.invisible += static_cast<double>(sum.invisible[c]) / 3.0;

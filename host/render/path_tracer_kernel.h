@@ -51,10 +51,10 @@ class PathTracerKernel {
     std::uint32_t firstLookPixel() const { return static_cast<std::uint32_t>(pixels_.size()); }
     std::uint32_t lookPixels() const { return lookPixels_; }
 
-    /// Submits a dispatch. Two may be in flight, in the places 0 and 1. A range has at most maxPixels()
+    /// Submits a dispatch. Two may be in flight, in the slots 0 and 1. A range has at most maxPixels()
     /// pixels and laneSamples() samples of a pixel. `quantum`: of the film. Throws MachineError if the device
     /// fails.
-    void submit(unsigned place, const WorkRange& range, float quantum);
+    void submit(unsigned slot, const WorkRange& range, float quantum);
 
     struct Results {
         WorkRange range;
@@ -62,8 +62,8 @@ class PathTracerKernel {
         bool complete;              ///< the driver did not end the loops of any team early
         double deviceSeconds;
     };
-    /// Waits for the dispatch in a place. Throws MachineError if the device fails.
-    Results wait(unsigned place);
+    /// Waits for the dispatch in a slot. Throws MachineError if the device fails.
+    Results wait(unsigned slot);
 
     /// The statistics of a dispatch: sums over its samples. See shared::PixelResult.
     struct Totals {
@@ -71,10 +71,10 @@ class PathTracerKernel {
         double lastBounce = 0.0, previousBounce = 0.0;
         bool clamped = false;
     };
-    /// Adds the sums of the finished dispatch in a place to a film of the scene's size and quantum.
-    Totals addTo(Film& film, unsigned place);
+    /// Adds the sums of the finished dispatch in a slot to a film of the scene's size and quantum.
+    Totals addTo(Film& film, unsigned slot);
     /// The same sums, totalled over the pixels.
-    FirstLook look(unsigned place);
+    FirstLook look(unsigned slot);
 
   private:
     struct Submitted {
@@ -82,7 +82,7 @@ class PathTracerKernel {
         std::uint32_t teamPixels = 0;
     };
 
-    Totals read(unsigned place);
+    Totals read(unsigned slot);
 
     std::uint32_t laneSamples_, maxPixels_, lookPixels_;
     std::span<const std::uint32_t> pixels_;

@@ -46,8 +46,8 @@ struct Camera {
 enum class Sampler : std::uint8_t { kSobol, kIndependent };
 
 enum class Integrator : std::uint8_t {
-    kPathTracer,  ///< gathering: paths from the camera
-    kLightTracer  ///< shooting: paths from the emitters
+    kPathTracer,  ///< paths from the camera
+    kLightTracer  ///< paths from the emitters
 };
 
 /// As in scene files and on the command line.
@@ -70,7 +70,7 @@ struct RenderSettings {
     std::uint32_t seed = 1;
     Sampler sampler = Sampler::kSobol;
     Integrator integrator = Integrator::kPathTracer;
-    std::uint32_t layers = 0;  ///< optional layers of the film, a FilmLayerSet; kPath only
+    std::uint32_t layers = 0;  ///< optional layers of the film, a FilmLayerSet; kPathTracer only
 
     float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };
@@ -108,7 +108,7 @@ struct Scene {
 /// A scene as its files describe it, with what else they say and what their readers noticed.
 struct LoadedScene : Scene {
     RenderSettings settings;
-    std::vector<Warning> warnings;             ///< default light used, missing MTL, degenerate triangles ...
+    std::vector<Warning> warnings;             ///< lamp added, missing MTL, degenerate triangles ...
     std::vector<std::filesystem::path> files;  ///< all that were read
     std::uint64_t meshBytes = 0;               ///< size of those that hold meshes
 };

@@ -4,17 +4,17 @@
 // visible component contributes only at the camera.
 float carried(Radiance2 l) { return maxComponent(l.invisible + (kSecondColumn ? l.visible : vec3(0.0))); }
 
-// The weight of light in a pixel.
+// Radiance weighted by PathParams.rowWeight: the maximum over the channels.
 float rowWeighted(Radiance2 l) {
     return maxComponent(params.rowWeight.x * l.invisible + params.rowWeight.y * l.visible);
 }
 
-// Russian roulette on connections, where only a part of their worth is left.
+// Probability that a connection survives which keeps `left` of its contribution `whole`.
 float connectionSurvival(float left, float whole) { return min(left / whole, 1.0); }
 
 float channelMean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
-// Adds to one sum of the film; whether that was beyond the range of 63 bits before.
+// Adds to one sum of the film. Returns whether the sum had already exceeded 63 bits.
 bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
 #ifdef DUOLUX_INT64_ATOMICS
     return unpackUint2x32(atomicAdd(film[band].sums[index], packUint2x32(quanta))).y >= 0x80000000u;
@@ -25,9 +25,9 @@ bool filmAtomicAdd(uint band, uint index, uvec2 quanta) {
 }
 
 // `stream`: of the light path.
-void splat(inout LaneSums sums, Radiance2 light, Connection connection, uvec2 stream) {
+void splat(inout LaneSums sums, Radiance2 arriving, Connection connection, uvec2 stream) {
     uint pixel = connection.pixel;
-    vec3 total = light.invisible + light.visible;
+    vec3 total = arriving.invisible + arriving.visible;
     float sum = total.x + total.y + total.z;
     // Written so that NaN is dropped, too.
     bool fine = sum < kLargestSample;
@@ -38,8 +38,8 @@ void splat(inout LaneSums sums, Radiance2 light, Connection connection, uvec2 st
     uvec2[kFilmSums] quanta;
     FilmRounding u = filmRounding(stream.x, stream.y, connection.dimension, params.seed);
     for (int c = 0; c < 3; c++) {
-        quanta[c] = filmQuantise(light.invisible[c], dispatch.inverseQuantum, u.invisible[c]);
-        quanta[c + 3] = filmQuantise(light.visible[c], dispatch.inverseQuantum, u.visible[c]);
+        quanta[c] = filmQuantise(arriving.invisible[c], dispatch.inverseQuantum, u.invisible[c]);
+        quanta[c + 3] = filmQuantise(arriving.visible[c], dispatch.inverseQuantum, u.visible[c]);
     }
     for (uint band = 0u; band < kFilmBands; band++) {
         if (kFilmBands == 1u || pixel / kBandPixels == band) {
@@ -56,14 +56,14 @@ void splat(inout LaneSums sums, Radiance2 light, Connection connection, uvec2 st
         }
     }
 
-    vec3 displayed = params.display.x * light.invisible + params.display.y * light.visible;
+    vec3 displayed = params.display.x * arriving.invisible + params.display.y * arriving.visible;
     float mean = channelMean(displayed);
     float inverseUnit = dispatch.inverseQuantum * (1.0 / kStatisticsQuanta);
     uint scatterings = connection.scatterings;
     if (scatterings == params.bounces) sums.lastBounce = filmAddSigned(sums.lastBounce, mean, inverseUnit);
     if (scatterings + 1u == params.bounces) sums.previousBounce = filmAddSigned(sums.previousBounce, mean, inverseUnit);
-    sums.invisible = filmAddSigned(sums.invisible, channelMean(light.invisible), inverseUnit);
-    sums.visible = filmAddSigned(sums.visible, channelMean(light.visible), inverseUnit);
+    sums.invisible = filmAddSigned(sums.invisible, channelMean(arriving.invisible), inverseUnit);
+    sums.visible = filmAddSigned(sums.visible, channelMean(arriving.visible), inverseUnit);
 }
 
 vec3 directionToCamera(vec3 point) { return connectToCamera(params.camera, point).direction; }
@@ -74,12 +74,12 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     float cosine = dot(outgoing.point.geometricNormal, camera.direction);
     cosine = kTransmits ? abs(cosine) : max(cosine, 0.0);
     Radiance2 arriving = scaled(outgoing.intensity, vec3(cosine * camera.importance));
-    // Light that counts less than its brightness, by components that are not displayed, is connected less often.
+    // Connections that contribute mainly to the undisplayed component are traced less often.
     float brightness = maxComponent(max(arriving.invisible, arriving.visible));
     float worth = max(params.rowWeight.x, params.rowWeight.y) * brightness;
     float survival = connectionSurvival(rowWeighted(arriving), worth);
-    // So is what a surface sends in a flat direction, which is dim by the cosine: a sixth of the rays for 6 to 8 % of
-    // variance.
+    // Connections at grazing angles, which are dim, are traced less often as well: this saves a sixth of the rays for 6
+    // to 8 % more variance.
     survival *= outgoing.scatterings > 0u ? min(3.0 * cosine, 1.0) : 1.0;
     float roulette =
         drawChoice(path.stream, sampleDimension(outgoing.scatterings, path.crossings, kDimensionConnection));
@@ -87,7 +87,7 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
     connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
     connection.segment = leaveVertex(outgoing.point, camera.direction);
     connection.distance = camera.distance;
-    connection.light = arriving;
+    connection.arriving = arriving;
     connection.roulette = roulette;
     connection.survival = survival;
     connection.pixel = camera.pixel;
@@ -99,19 +99,22 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
 void continueConnection(inout Connection connection, inout LaneSums sums, uvec2 stream, Traversal ray, bool found,
                         uint material) {
     if (kCameraTransparency == kTransparencyGeneral && found) {
-        float before = rowWeighted(connection.light);
-        Radiance2 through = matrixApply(transparentOf(material), connection.light);
-        // Roulette where what is displayed is lost, by the same number all along the ray.
+        float before = rowWeighted(connection.arriving);
+        Radiance2 through = matrixApply(transparentOf(material), connection.arriving);
+        // Russian roulette on the loss of displayed radiance; one random number serves the whole ray.
         connection.survival *= connectionSurvival(rowWeighted(through), before);
-        connection.light = through;
+        connection.arriving = through;
         crossSurface(connection.segment, ray);
         connection.pending = connection.roulette < connection.survival;
         return;
     }
-    Radiance2 light = connection.light;
-    // Surfaces that pass on the invisible component as it is, and nothing of the visible one.
-    if (found) light = Radiance2(kCameraTransparency == kTransparencyIdentity ? light.invisible : vec3(0.0), vec3(0.0));
-    light = scaled(light, vec3(1.0 / connection.survival));
-    if (maxComponent(light.invisible + light.visible) != 0.0) splat(sums, light, connection, stream);
+    Radiance2 arriving = connection.arriving;
+    if (found) {
+        // Surfaces transmit the invisible component unchanged and block the visible one.
+        bool transmits = kCameraTransparency == kTransparencyIdentity;
+        arriving = Radiance2(transmits ? arriving.invisible : vec3(0.0), vec3(0.0));
+    }
+    arriving = scaled(arriving, vec3(1.0 / connection.survival));
+    if (maxComponent(arriving.invisible + arriving.visible) != 0.0) splat(sums, arriving, connection, stream);
     connection.pending = false;
 }

@@ -32,7 +32,7 @@ bool onlyEmissionLeft(Path path) {
     return path.scatterings >= params.bounces || !canScatter(path.importance);
 }
 
-// Without the second column all importance is on the first, but for the visible row of the camera's own segment.
+// Without a second column, the first column carries all importance, except on the camera's own segment.
 ReflectanceMatrix importanceOf(Path path) {
     if (kSecondColumn) return path.importance;
     float atCamera = onCameraSegment(path) ? 1.0 : 0.0;

@@ -5,15 +5,15 @@
 struct Shadow {
     bool pending;
     Segment segment;
-    float distance;                // to the emitter; its order if surfaces coincide with it
-    uint beforeOrder;
+    float distance;                // to the emitter
+    uint beforeOrder;              // of the emitter if surfaces coincide with it
     ReflectanceMatrix importance;  // W O f cos / pdf and what was crossed so far (kTransparencyGeneral)
-    Radiance2 emission;            // of the emitter (kTransparencyGeneral), else the contribution if nothing is in between
+    Radiance2 emission;            // of the emitter (kTransparencyGeneral), else the contribution if nothing blocks it
     uint scatterings;              // events on the whole path, for the statistics
 };
 
-void addRadiance(inout SampleRadiance received, Radiance2 light, uint scatterings) {
-    addRadiance(received, light, scatterings, params.bounces, params.display);
+void addRadiance(inout SampleRadiance received, Radiance2 arriving, uint scatterings) {
+    addRadiance(received, arriving, scatterings, params.bounces, params.display);
 }
 
 // Collects what the surface emits, which may be nothing; weighted, because direct light is sampled at vertices, too.
@@ -31,31 +31,31 @@ void collectEmission(inout SampleRadiance received, Path path, SurfaceHit hit, R
 // `importance`: W O at the vertex.
 void connectToEmitter(inout Shadow shadow, inout SampleRadiance received, SurfaceHit hit, ReflectanceMatrix importance,
                       vec3 wo, uvec2 words, uint scatterings) {
-    EmitterSample light = sampleEmitter(params.emitterCount, hit.point.position, words);
+    EmitterSample sampled = sampleEmitter(params.emitterCount, hit.point.position, words);
     BsdfFrame frame = frameOf(hit.point);
-    vec3 f = bsdfEvaluate(hit.material.bsdf, frame, wo, light.wi, kModeRadiance);
+    vec3 f = bsdfEvaluate(hit.material.bsdf, frame, wo, sampled.wi, kModeRadiance);
     // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf. No other strategy finds a delta.
-    float otherPdf = light.delta ? 0.0 : bsdfPdf(hit.material.bsdf, frame, wo, light.wi, kModeRadiance);
-    float weight = 1.0 / (light.pdf + otherPdf);
-    ReflectanceMatrix reflected = scaled(importance, f * (bsdfCosine(frame, light.wi, kModeRadiance) * weight));
-    Radiance2 contribution = matrixApply(reflected, light.emission);
-    bool contributes = light.distance > 0.0 && maxComponent(contribution.invisible + contribution.visible) > 0.0;
+    float otherPdf = sampled.delta ? 0.0 : bsdfPdf(hit.material.bsdf, frame, wo, sampled.wi, kModeRadiance);
+    float weight = 1.0 / (sampled.pdf + otherPdf);
+    ReflectanceMatrix reflected = scaled(importance, f * (bsdfCosine(frame, sampled.wi, kModeRadiance) * weight));
+    Radiance2 contribution = matrixApply(reflected, sampled.emission);
+    bool contributes = sampled.distance > 0.0 && maxComponent(contribution.invisible + contribution.visible) > 0.0;
     if (kTransparency == kTransparencyIdentity) {
         if (contributes) addRadiance(received, contribution, scatterings);
     } else if (contributes) {
         shadow.pending = true;
-        shadow.segment = leaveVertex(hit.point, light.wi);
-        shadow.distance = light.distance;
+        shadow.segment = leaveVertex(hit.point, sampled.wi);
+        shadow.distance = sampled.distance;
         shadow.beforeOrder = kNoTriangle;
-        if (light.coincident != kNoTriangle) {
-            Plane plane = fetchPlane(light.coincident);
-            shadow.distance = planeDistance(plane, shadow.segment.origin, light.wi);
-            shadow.beforeOrder = orderOfSurface(light.emitter, dot(plane.normal, light.wi) < 0.0);
+        if (sampled.coincident != kNoTriangle) {
+            Plane plane = fetchPlane(sampled.coincident);
+            shadow.distance = planeDistance(plane, shadow.segment.origin, sampled.wi);
+            shadow.beforeOrder = orderOfSurface(sampled.emitter, dot(plane.normal, sampled.wi) < 0.0);
         }
         shadow.scatterings = scatterings;
         if (kTransparency == kTransparencyGeneral) {
             shadow.importance = reflected;
-            shadow.emission = light.emission;
+            shadow.emission = sampled.emission;
         } else {
             shadow.emission = contribution;
         }

@@ -28,18 +28,18 @@ LayerSums layerSums;
 // Begins a pixel.
 void emptyLayers() {
 #define DUOLUX_LAYER_EMPTY(id, Id, index, channels, count, lowest, largest) \
-    layers.id = vec3(0.0);                                                    \
+    layers.id = vec3(0.0);                                                  \
     layerSums.id = filmZero();
     DUOLUX_FILM_LAYERS(DUOLUX_LAYER_EMPTY)
 }
 
 // Adds the values of the current sample, and begins the next sample.
 void addLayers() {
-#define DUOLUX_LAYER_ADD(id, Id, index, channels, count, lowest, largest)                               \
-    if (kLayer##Id) {                                                                                     \
+#define DUOLUX_LAYER_ADD(id, Id, index, channels, count, lowest, largest)                                \
+    if (kLayer##Id) {                                                                                    \
         layerSums.id = filmAccumulateSigned(layerSums.id, clamp(layers.id, vec3(lowest), vec3(largest)), \
-                                              kLayerQuanta / max(abs(lowest), abs(largest)));               \
-    }                                                                                                       \
+                                            kLayerQuanta / max(abs(lowest), abs(largest)));              \
+    }                                                                                                    \
     layers.id = vec3(0.0);
     DUOLUX_FILM_LAYERS(DUOLUX_LAYER_ADD)
 }
@@ -49,11 +49,11 @@ void storeLayers(uint result) {
 #define DUOLUX_LAYER_COUNT(id, Id, index, channels, count, lowest, largest) +(kLayer##Id ? count : 0u)
     uint next = result * (0u DUOLUX_FILM_LAYERS(DUOLUX_LAYER_COUNT));
 #define DUOLUX_LAYER_STORE(id, Id, index, channels, count, lowest, largest) \
-    if (kLayer##Id) {                                                         \
-        layerResults[next] = layerSums.id.r;                                  \
-        if (count > 1u) layerResults[next + 1u] = layerSums.id.g;             \
-        if (count > 2u) layerResults[next + 2u] = layerSums.id.b;             \
-        next += count;                                                          \
+    if (kLayer##Id) {                                                       \
+        layerResults[next] = layerSums.id.r;                                \
+        if (count > 1u) layerResults[next + 1u] = layerSums.id.g;           \
+        if (count > 2u) layerResults[next + 2u] = layerSums.id.b;           \
+        next += count;                                                      \
     }
     DUOLUX_FILM_LAYERS(DUOLUX_LAYER_STORE)
 }

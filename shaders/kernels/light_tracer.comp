@@ -1,10 +1,10 @@
 // The light tracer: paths from the emitters carry a column L of flux per colour channel. At a surface O f_opaque L is
-// connected to the camera and may continue in a new direction, T L continues straight on: the adjoint of the path tracer,
-// with the matrices multiplied from the left, in the order met.
+// connected to the camera and may continue in a new direction, T L continues straight on: the adjoint of the path
+// tracer, with the matrices multiplied from the left, in the order met.
 //
 // A team of lanes takes the paths of a range one after the other. Rays along the path and rays to the camera share one
-// traversal. All surfaces along a ray are met in order: at each, the path is connected to the camera, and one of them is
-// chosen, in proportion to the flux that it would scatter, to continue from.
+// traversal. All surfaces along a ray are met in order: at each, the path is connected to the camera, and one of them
+// is chosen, in proportion to the flux that it would scatter, to continue from.
 //
 // What arrives at the camera is added to the film with atomics, in integers: in any order the sums are the same.
 #version 460

@@ -2,9 +2,9 @@
 // components of the pixel. At a surface W E is collected; W O f_opaque continues in a new direction, W T straight on.
 //
 // A team of lanes takes some samples of each of a range of pixels. Path rays and shadow rays share one traversal, which
-// lanes leave and enter as they finish and begin rays. All crossings along a ray are met in order: at each, emission and
-// direct light are added, and one of them is chosen, in proportion to the importance that it would carry, to continue
-// from.
+// lanes leave and enter as they finish and begin rays. All crossings along a ray are met in order: at each, emission
+// and direct light are added, and one of them is chosen, in proportion to the importance that it would carry, to
+// continue from.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -14,7 +14,7 @@
 #include "shaders/lib/pixel_sums.glsl"
 
 layout(constant_id = kSpecDirectLight) const uint kDirectLight = kDirectLightSampled;
-layout(constant_id = kSpecHasEmitters) const bool kHasEmitters = true;
+layout(constant_id = kSpecEmittingTriangles) const bool kEmittingTriangles = true;
 
 layout(binding = kBindingPixels, rgba32ui) uniform readonly uimageBuffer pixelTexels;
 layout(binding = kBindingResults, scalar) writeonly buffer ResultsBlock { PixelResult results[]; };
@@ -54,7 +54,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     ReflectanceMatrix w = importanceOf(path);
     vec3 wo = -path.segment.direction;
     if (kLayerNormal && onCameraSegment(path)) layers.normal = hit.point.shadingNormal;
-    if (kHasEmitters) collectEmission(received, path, hit, w, ray.t, tri.primitive);
+    if (kEmittingTriangles) collectEmission(received, path, hit, w, ray.t, tri.primitive);
 
     ReflectanceMatrix scattered = multiply(w, opaqueOf(hit.materialIndex));
     vec3 albedo = bsdfAlbedo(hit.material.bsdf, frameOf(hit.point), wo);
@@ -144,14 +144,14 @@ void main() {
                 if (kTransparency == kTransparencyIdentity) {
                     // Most rays that only look for emitters, and that nothing stops, pass far from all of them.
                     while (emissionOnly && !path.ended &&
-                           !intersectBox(path.segment.origin, path.segment.direction, path.segment.t, params.emitterLower,
-                                         params.emitterUpper)) {
+                           !intersectBox(path.segment.origin, path.segment.direction, path.segment.t,
+                                         params.emitterLower, params.emitterUpper)) {
                         endSegment(path, vertex);
                         emissionOnly = onlyEmissionLeft(path);
                     }
                 }
                 bool emissionCounts =
-                    kHasEmitters && (kDirectLight != kDirectLightClosedForm || path.scatterings == 0u);
+                    kEmittingTriangles && (kDirectLight != kDirectLightClosedForm || path.scatterings == 0u);
                 if (emissionOnly && !emissionCounts) path.ended = true;
                 // Emitters along a ray that nothing else can stop are found in their own small tree.
                 bool inEmitterTree = kTransparency == kTransparencyIdentity && emissionOnly;

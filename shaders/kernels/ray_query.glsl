@@ -28,7 +28,8 @@ struct Traversal {
 // Traverses all triangles if `root` is 0, otherwise the emitting triangles, of which `root` is the first.
 Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uint afterOrder, float tMax,
                          bool anyHit) {
-    return Traversal(origin, direction, tMin, afterOrder, anyHit, root, tMax, kNoTriangle, kNoTriangle, vec2(0.0), true);
+    return Traversal(origin, direction, tMin, afterOrder, anyHit, root, tMax, kNoTriangle, kNoTriangle, vec2(0.0),
+                     true);
 }
 
 bool traversalAlive(Traversal r) { return r.nodesLeft; }

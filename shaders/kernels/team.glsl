@@ -13,7 +13,7 @@ Team teamOfLane(uint share, uint total, uint firstTeam) {
     return Team(firstTeam + team, begin, begin < total ? min(share, total - begin) : 0u);
 }
 
-// The number of an item within the team; not below team.items: there are no more.
+// The number of an item within the team. A result >= team.items means that no items remain.
 uint takeItem(Team team) { return atomicAdd(teams[team.progress].taken, 1u); }
 void finishItem(Team team) { atomicAdd(teams[team.progress].finished, 1u); }
 

@@ -1,5 +1,5 @@
-// Traces given rays: the traversal by itself, for benchmarks. The lanes of a subgroup share a block of rays; those that
-// have done theirs take the next ones, as in the path tracer, so that all stay busy.
+// Traces given rays: the traversal by itself, for benchmarks. The lanes of a subgroup share a block of rays; lanes that
+// have finished their rays take the next ones, as in the path tracer, so that all stay busy.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -7,9 +7,9 @@
 
 #include "shaders/shared/trace_layout.h"
 
-layout(constant_id = kSpecTraceMode) const uint kMode = 0u;
+layout(constant_id = kSpecTraceMode) const uint kMode = kTraceNearest;
 #ifdef DUOLUX_RAY_QUERY
-const bool kCount = false;  // the driver does not tell
+const bool kCount = false;  // the driver reports no counts
 #else
 layout(constant_id = kSpecCount) const bool kCount = false;
 #endif
@@ -65,7 +65,7 @@ void main() {
         bool found = ray.triangle != kNoTriangle;
         bool done = busy && !traversalAlive(ray);
         if (kOrdered && done && found) {
-            // On behind the surface.
+            // Continues behind the surface.
             first.t = crossings == 0u ? ray.t : first.t;
             crossings += 1u;
             first.normal = vec3(float(crossings), 0.0, 0.0);

@@ -7,7 +7,7 @@
 #include "shaders/lib/bsdf/diffuse.glsl"
 #include "shaders/lib/reflectance_matrix.glsl"
 
-layout(constant_id = kSpecLobes) const uint kLobes = 3u;
+layout(constant_id = kSpecLobes) const uint kLobes = kLobeDiffuse + kLobeConductor;
 
 const bool kOnlyDiffuse = kLobes == kLobeDiffuse;
 const bool kTransmits = (kLobes & kLobesThatTransmit) != 0u;
@@ -17,7 +17,7 @@ vec3 bsdfEvaluate(Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
     if (!reflects(frame, wo, wi, mode)) return vec3(0.0);
     if (kOnlyDiffuse) return diffuseEvaluate(bsdf);
     vec3 metal = conductorEvaluate(bsdf, toFrame(frame.shading, viewOf(wo, wi, mode)),
-                                   toFrame(frame.shading, lightOf(wo, wi, mode)));
+                                   toFrame(frame.shading, incidentOf(wo, wi, mode)));
     return mix(diffuseEvaluate(bsdf), metal, bsdf.metallic);
 }
 
@@ -59,7 +59,8 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
                        (bsdf.metallic * ratio / (1.0 - probability));
             s.pdf = kDeltaPdf;
         }
-        // Directions below the shading normal's horizon have only the density around the normal of the mode.
+        // Below the shading normal's horizon, only cosine sampling generates directions; samples of the microfacets
+        // there are discarded.
         if (facet && dot(frame.shading, s.wi) <= 0.0) s.pdf = 0.0;
     }
     if (!kTransmits && dot(frame.geometric, s.wi) <= 0.0) s.pdf = 0.0;

@@ -6,17 +6,17 @@
 #include "shaders/lib/camera/orthographic.glsl"
 #include "shaders/lib/camera/perspective.glsl"
 
-layout(constant_id = kSpecCamera) const uint kCamera = 0u;
+layout(constant_id = kSpecCamera) const uint kCamera = kCameraPerspective;
 
 // The top left corner of the pixel with this number, in pixels from the top left corner of the image.
 vec2 pixelCorner(DeviceCamera camera, uint pixel) {
     return vec2(float(int(pixel % camera.width)), float(int(pixel / camera.width)));
 }
 
-// `pixel`: point of the image, in pixels from the top left corner.
-CameraRay cameraRay(DeviceCamera camera, vec2 pixel) {
-    if (kCamera == kCameraOrthographic) return orthographicRay(camera, pixel);
-    return perspectiveRay(camera, pixel);
+// `filmPosition`: in pixels from the top left corner of the image.
+CameraRay cameraRay(DeviceCamera camera, vec2 filmPosition) {
+    if (kCamera == kCameraOrthographic) return orthographicRay(camera, filmPosition);
+    return perspectiveRay(camera, filmPosition);
 }
 
 CameraConnection connectToCamera(DeviceCamera camera, vec3 point) {

@@ -1,6 +1,6 @@
 // Chooses an emitter of the scene and dispatches to its kind (emitter/), for next-event estimation, for multiple
 // importance sampling (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2) and for
-// shooting.
+// the light tracer.
 #ifndef DUOLUX_LIB_EMITTER_GLSL
 #define DUOLUX_LIB_EMITTER_GLSL
 
@@ -54,14 +54,14 @@ Radiance2 irradianceFromEmitters(uint emitterCount, vec3 point, vec3 normal) {
     Radiance2 total = Radiance2(vec3(0.0), vec3(0.0));
     for (uint i = 0u; i < emitterCount; i++) {
         Emitter emitter = fetchEmitter(i);
-        Radiance2 light = Radiance2(vec3(0.0), vec3(0.0));
+        Radiance2 arriving = Radiance2(vec3(0.0), vec3(0.0));
         if (isKind(emitter, kEmitterKindPoint)) {
-            light = irradianceFromPoint(emitter, point, normal);
+            arriving = irradianceFromPoint(emitter, point, normal);
         } else {
-            light = irradianceFromTriangle(emitter, point, normal);
+            arriving = irradianceFromTriangle(emitter, point, normal);
         }
-        total.invisible += light.invisible;
-        total.visible += light.visible;
+        total.invisible += arriving.invisible;
+        total.visible += arriving.visible;
     }
     return total;
 }

@@ -31,12 +31,12 @@ struct Connection {
     bool pending;
     Segment segment;
     float distance;
-    Radiance2 light;   // contribution to the pixel if no further surface is crossed
-    float roulette;    // uniform number of the connection's Russian roulette
-    float survival;    // probability of having survived so far
+    Radiance2 arriving;  // contribution to the pixel if no further surface is crossed
+    float roulette;      // uniform number of the connection's Russian roulette
+    float survival;      // probability of having survived so far
     uint pixel;
-    uint scatterings;  // scattering events on the path, for the statistics
-    uint dimension;    // of its random numbers
+    uint scatterings;    // scattering events on the path, for the statistics
+    uint dimension;      // of its random numbers
 };
 
 struct LaneSums {

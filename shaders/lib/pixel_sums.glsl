@@ -1,4 +1,4 @@
-// The radiance that a sample gathers, and the sums over the samples of a pixel.
+// The radiance that a sample receives, and the sums over the samples of a pixel.
 #ifndef DUOLUX_LIB_PIXEL_SUMS_GLSL
 #define DUOLUX_LIB_PIXEL_SUMS_GLSL
 
@@ -14,10 +14,10 @@ struct SampleRadiance {
 
 // Adds the contribution of a path with `scatterings` scattering events. The displayed radiance (by the row `display`)
 // of paths with the largest number of events, and of those with one fewer, is also summed separately.
-void addRadiance(inout SampleRadiance g, Radiance2 light, uint scatterings, uint bounces, vec2 display) {
-    g.radiance.invisible += light.invisible;
-    g.radiance.visible += light.visible;
-    vec3 displayed = display.x * light.invisible + display.y * light.visible;
+void addRadiance(inout SampleRadiance g, Radiance2 arriving, uint scatterings, uint bounces, vec2 display) {
+    g.radiance.invisible += arriving.invisible;
+    g.radiance.visible += arriving.visible;
+    vec3 displayed = display.x * arriving.invisible + display.y * arriving.visible;
     float mean = (displayed.x + displayed.y + displayed.z) * (1.0 / 3.0);
     g.lastBounce += scatterings == bounces ? mean : 0.0;
     g.previousBounce += scatterings + 1u == bounces ? mean : 0.0;

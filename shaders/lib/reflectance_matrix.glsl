@@ -21,7 +21,7 @@ ReflectanceMatrix matrixIdentity() { return ReflectanceMatrix(vec3(1.0), vec3(0.
 
 ReflectanceMatrix matrixMultiply(ReflectanceMatrix a, ReflectanceMatrix b) {
     return ReflectanceMatrix(a.m00 * b.m00 + a.m01 * b.m10, a.m00 * b.m01 + a.m01 * b.m11,
-                       a.m10 * b.m00 + a.m11 * b.m10, a.m10 * b.m01 + a.m11 * b.m11);
+                             a.m10 * b.m00 + a.m11 * b.m10, a.m10 * b.m01 + a.m11 * b.m11);
 }
 
 // a * b where the second column of b is known to be zero; the second column of the product is then also zero.

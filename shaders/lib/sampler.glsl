@@ -8,7 +8,7 @@
 
 // The purpose of a number or a pair of numbers. Scattering events, crossings and purpose together are the dimension,
 // which has room for more purposes (a lens, the wavelength).
-const uint kDimensionPixel = 0u;       // place in the pixel
+const uint kDimensionPixel = 0u;       // position in the pixel
 const uint kDimensionEmitter = 1u;     // point on an emitter
 const uint kDimensionDirection = 2u;   // scattered direction
 const uint kDimensionRoulette = 3u;    // whether a path continues

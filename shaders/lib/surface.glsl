@@ -48,8 +48,8 @@ SurfacePoint placedByPlane(SurfacePoint point, vec3 at, bool behindOthers) {
     return point;
 }
 
-// A straight part of a path, from one scattering event to the next: a ray that meets surfaces after (t, order), which is
-// where it starts, or the last surface that it has crossed.
+// A straight part of a path, from one scattering event to the next: a ray that meets surfaces after (t, order), which
+// is where it starts, or the last surface that it has crossed.
 struct Segment {
     vec3 origin;
     vec3 direction;
@@ -57,8 +57,8 @@ struct Segment {
     uint order;
 };
 
-// A ray that leaves a surface on the side of the point's normals or, `through` the surface, on the other side. Coincident
-// surfaces that lie on its side are still to be crossed.
+// A ray that leaves a surface on the side of the point's normals or, `through` the surface, on the other side.
+// Coincident surfaces that lie on its side are still to be crossed.
 Segment leaveSurface(SurfacePoint point, vec3 direction, bool through) {
     vec3 origin = through ? point.position - 2.0 * point.offset * point.geometricNormal : point.position;
     Segment segment = Segment(origin, direction, 0.0, kNoTriangle);
@@ -72,9 +72,9 @@ Segment leaveSurface(SurfacePoint point, vec3 direction, bool through) {
 }
 
 // With a shading normal Ns, the path tracer uses |wi . Ns| in place of |wi . Ng| (wi points to the light). The adjoint
-// is not obtained by exchanging the directions: the light tracer scatters a light path that arrives from wi by f |wi .
-// Ns| / |wi . Ng| and the cosine between wo and the geometric normal (Veach, "Robust Monte Carlo Methods for Light
-// Transport Simulation", 1997, section 5.3). Zero where wi is on different sides of the two normals.
+// is not obtained by exchanging the directions: the light tracer scatters a light path that arrives from wi by
+// f |wi . Ns| / |wi . Ng| and the cosine between wo and the geometric normal (Veach, "Robust Monte Carlo Methods for
+// Light Transport Simulation", 1997, section 5.3). Zero where wi is on different sides of the two normals.
 float shadingAdjoint(SurfacePoint point, vec3 wi) {
     float cosShading = dot(point.shadingNormal, wi);
     float cosGeometric = dot(point.geometricNormal, wi);

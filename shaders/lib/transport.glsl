@@ -8,7 +8,7 @@
 #include "shaders/lib/material.glsl"
 #include "shaders/shared/path_tracer_layout.h"
 
-layout(constant_id = kSpecTransparency) const uint kTransparency = 2u;
+layout(constant_id = kSpecTransparency) const uint kTransparency = kTransparencyGeneral;
 layout(constant_id = kSpecSecondColumn) const bool kSecondColumn = true;
 layout(constant_id = kSpecInvisibleScatters) const bool kInvisibleScatters = true;
 layout(constant_id = kSpecVisibleScatters) const bool kVisibleScatters = true;

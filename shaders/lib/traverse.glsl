@@ -86,7 +86,8 @@ Traversal traversalStart(uint root, vec3 origin, vec3 direction, float tMin, uin
 bool traversalAlive(Traversal r) { return r.nodesLeft || r.pairMask != 0u; }
 
 vec4 unpackBytes(uint x) {
-    return vec4(float(int(x & 255u)), float(int((x >> 8u) & 255u)), float(int((x >> 16u) & 255u)), float(int(x >> 24u)));
+    return vec4(float(int(x & 255u)), float(int((x >> 8u) & 255u)), float(int((x >> 16u) & 255u)),
+                float(int(x >> 24u)));
 }
 
 // Four children of a node: a byte of every word each (WideNode).

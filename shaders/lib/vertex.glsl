@@ -13,7 +13,8 @@ struct Vertex {
     float weightSum;  // of all vertices of the segment
 };
 
-// A further vertex with this weight, which is above 0, and a uniform number `u`. True: it becomes the chosen one.
+// Offers a further vertex, with a weight above 0, and a uniform number `u`. Returns whether it replaces the chosen
+// vertex.
 bool offerVertex(inout Vertex vertex, Bsdf bsdf, SurfacePoint point, float weight, float u) {
     float weightSum = vertex.weightSum + weight;
     bool chosen = u * weightSum < weight;

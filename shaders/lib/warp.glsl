@@ -25,8 +25,7 @@ vec3 uniformSphere(vec2 u) {
 // Barycentric coordinates (of the second and third vertex), uniform in area: Heitz, "A Low-Distortion Map Between
 // Triangle and Square", 2019.
 vec2 uniformTriangle(vec2 u) {
-    vec2 b = u.y > u.x ? vec2(u.x * 0.5, u.y - u.x * 0.5) : vec2(u.x - u.y * 0.5, u.y * 0.5);
-    return b;
+    return u.y > u.x ? vec2(u.x * 0.5, u.y - u.x * 0.5) : vec2(u.x - u.y * 0.5, u.y * 0.5);
 }
 
 // Orthonormal vectors around a unit vector: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.

@@ -16,8 +16,8 @@ struct DeviceCamera {
     uint width;    // of the image, in pixels
     vec3 forward;  // unit
     uint height;   // in pixels
-    vec3
-        right;  // half the width of the image plane: perspective: at distance 1; orthographic: in scene units
+    // Half the width of the image plane: perspective: at distance 1; orthographic: in scene units.
+    vec3 right;
     float area;        // of the image plane
     vec3 up;           // half its height
     float startDepth;  // distance ahead of the camera at which rays begin; above 0 for a distant scene

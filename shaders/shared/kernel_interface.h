@@ -34,20 +34,20 @@ DUOLUX_CONST uint kSpecSmoothNormals = 6u;   // some triangles have shading norm
 DUOLUX_CONST uint kSpecVertexColours = 7u;   // colours of vertices scale those of materials
 DUOLUX_CONST uint kSpecTransparency = 8u;    // one of kTransparency...
 DUOLUX_CONST uint kSpecCameraTransparency = 9u;  // one of kTransparency..., for connections to the camera
-DUOLUX_CONST uint kSpecSecondColumn =
-    10u;  // some O or T has m01 or m11: visible light scatters or is transmitted
-DUOLUX_CONST uint kSpecInvisibleScatters =
-    11u;  // some O has m00 or m01: importance for invisible light scatters
-DUOLUX_CONST uint kSpecVisibleScatters = 12u;   // some O has m10 or m11
-DUOLUX_CONST uint kSpecInvisibleCrosses = 13u;  // some T has m00 or m01
-DUOLUX_CONST uint kSpecVisibleCrosses = 14u;    // some T has m10 or m11
-DUOLUX_CONST uint kSpecOneReflectance = 15u;    // all materials share PathParams.opaque and .transparent
-DUOLUX_CONST uint kSpecLobes = 16u;             // sum of the kLobe... that the scene's materials have
-DUOLUX_CONST uint kSpecEmitterKinds = 17u;      // sum of the kEmitterKind... in the scene
-DUOLUX_CONST uint kSpecHasEmitters = 18u;       // some triangle emits
-DUOLUX_CONST uint kSpecDirectLight = 19u;       // one of kDirectLight...
-DUOLUX_CONST uint kSpecCamera = 20u;            // one of kCamera...
-DUOLUX_CONST uint kSpecSampler = 21u;           // one of kSampler...
+// Some O or T has m01 or m11: visible light scatters or is transmitted.
+DUOLUX_CONST uint kSpecSecondColumn = 10u;
+// Some O has m00 or m01: importance for invisible light scatters.
+DUOLUX_CONST uint kSpecInvisibleScatters = 11u;
+DUOLUX_CONST uint kSpecVisibleScatters = 12u;    // some O has m10 or m11
+DUOLUX_CONST uint kSpecInvisibleCrosses = 13u;   // some T has m00 or m01
+DUOLUX_CONST uint kSpecVisibleCrosses = 14u;     // some T has m10 or m11
+DUOLUX_CONST uint kSpecOneReflectance = 15u;     // all materials share PathParams.opaque and .transparent
+DUOLUX_CONST uint kSpecLobes = 16u;              // sum of the kLobe... that the scene's materials have
+DUOLUX_CONST uint kSpecEmitterKinds = 17u;       // sum of the kEmitterKind... in the scene
+DUOLUX_CONST uint kSpecEmittingTriangles = 18u;  // some triangle emits
+DUOLUX_CONST uint kSpecDirectLight = 19u;        // one of kDirectLight...
+DUOLUX_CONST uint kSpecCamera = 20u;             // one of kCamera...
+DUOLUX_CONST uint kSpecSampler = 21u;            // one of kSampler...
 DUOLUX_CONST uint kSpecFilmLayers = 22u;  // the optional layers: bit i stands for the layer with index i
 DUOLUX_CONST uint kSpecFilmBands = 23u;   // buffers of the light tracer's film
 DUOLUX_CONST uint kSpecBandPixels = 24u;  // pixels of each of them but the last

@@ -20,13 +20,13 @@ DUOLUX_CONST uint kSamplerIndependent = 1u;
 // How direct light at a vertex is computed.
 DUOLUX_CONST uint kDirectLightNone = 0u;     // there is no emitter
 DUOLUX_CONST uint kDirectLightSampled = 1u;  // by next-event estimation and multiple importance sampling
-DUOLUX_CONST uint kDirectLightClosedForm =
-    2u;  // by Lambert's formula for each emitter; only where nothing can block an emitter
+// By Lambert's formula for each emitter; only where nothing can block an emitter.
+DUOLUX_CONST uint kDirectLightClosedForm = 2u;
 
 // The transmittance of a segment between two points, for the whole scene.
 DUOLUX_CONST uint kTransparencyZero = 0u;  // every T is 0: any surface hides what is behind it
-DUOLUX_CONST uint kTransparencyIdentity =
-    1u;                                       // every T passes the components that carry importance unchanged
+// Every T passes the components that carry importance unchanged.
+DUOLUX_CONST uint kTransparencyIdentity = 1u;
 DUOLUX_CONST uint kTransparencyGeneral = 2u;  // a product of 2x2 matrices, in order
 
 // A ReflectanceMatrix: entry ij maps component j to component i, per channel; 0 = invisible, 1 = visible.
@@ -46,11 +46,11 @@ struct PathParams {
     vec2 rowWeight;     // weights of the components (invisible, visible) of a pixel in the distribution of
                         // work; their sum is 1
     vec2 display;       // the row d of eq. 8
-    uint emitterCount;  // emitters that next-event estimation and shooting choose from
+    uint emitterCount;  // emitters that next-event estimation and the light tracer choose from
     uint emittingTriangles;  // triangles with a rank below this emit
     uint emitterRoot;   // index of the root node of the tree over emitters or, with the driver's tree, of the
                         // first emitting triangle; 0: there is none
-    vec3 emitterLower;  // bounds of the emitters, slightly enlarged
+    vec3 emitterLower;  // bounds of the emitting triangles, slightly enlarged
     vec3 emitterUpper;
 };
 

@@ -130,7 +130,7 @@ const std::vector<Case> kCases{{"diffuse", {glm::vec3(0.5f), 0.0f, 0.5f}, kRadia
                                {"metal-rough", {glm::vec3(0.9f), 1.0f, 0.8f}, kRadiance},
                                {"metal-glossy", {glm::vec3(0.9f), 1.0f, 0.45f}, kRadiance},
                                {"mixture", {glm::vec3(0.7f), 0.5f, 0.6f}, kRadiance},
-                               {"metal-shooting", {glm::vec3(0.9f), 1.0f, 0.6f}, kImportance}};
+                               {"metal-importance", {glm::vec3(0.9f), 1.0f, 0.6f}, kImportance}};
 
 /// Tests samples over (z, phi) of the upper hemisphere, where area is solid angle, against the density in
 /// double precision. Samples of a rough metal may be below the horizon, where nothing is reflected; the

@@ -52,7 +52,8 @@ TEST(RaysBeginOnTheirWayFromTheCamera) {
     CameraRay ray = cameraRay(camera, randomVec2() * imageSize(camera));
     float depth = camera.startDepth;
     float cosine = dot(ray.direction, camera.forward);  // as small as 1/600
-    EXPECT_NEAR(ray.origin, camera.position + ray.direction * (depth / cosine), 1e-6 + 1e-7 * depth / (cosine * cosine));
+    EXPECT_NEAR(ray.origin, camera.position + ray.direction * (depth / cosine),
+                1e-6 + 1e-7 * depth / (cosine * cosine));
 }
 
 TEST(RaysAreUnit) {
@@ -155,7 +156,8 @@ TEST(PointOnAnOrthographicRayIsSeenWhereTheRayCameFrom) {
 TEST(NothingIsSeenBesideOrBehindAnOrthographicImage) {
     DeviceCamera camera = randomCamera();
     bool behind = testIndex() % 5u == 4u;
-    CameraRay ray = orthographicRay(camera, (behind ? randomVec2() : besideImage(testIndex() % 5u, -4.0)) * imageSize(camera));
+    vec2 inImage = behind ? randomVec2() : besideImage(testIndex() % 5u, -4.0);
+    CameraRay ray = orthographicRay(camera, inImage * imageSize(camera));
     float distance = randomScale(-2.0, 6.0) * (behind ? -1.0 : 1.0) - (behind ? camera.startDepth : 0.0);
     EXPECT_FALSE(connectToOrthographic(camera, ray.origin + ray.direction * distance).visible);
 }

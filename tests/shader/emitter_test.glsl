@@ -57,7 +57,8 @@ TEST(FluxOfOneEmitterIsItsPower) {
 Emitter triangleEmitter(uint flags) {
     vec3 a = randomVec3(-1.0, 1.0);
     vec3 b = randomVec3(-1.0, 1.0);
-    return Emitter(a, b, randomVec3(-1.0, 1.0), flags, 1e-6, 0u, Radiance2(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)), 7.0);
+    Radiance2 emission = Radiance2(vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0));
+    return Emitter(a, b, randomVec3(-1.0, 1.0), flags, 1e-6, 0u, emission, 7.0);
 }
 
 // All four combinations of sides.
@@ -186,13 +187,15 @@ TEST(EachKindIsServedByItsOwnFunctions) {
     EXPECT_EQ(chooseEmitter(2u, words).index, 1u);
     EXPECT_EQ(sampleEmitter(2u, receiver, words).wi, samplePointEmitter(point, 1u, receiver).wi);
     EXPECT_TRUE(sampleEmitter(2u, receiver, words).delta);
-    vec3 sum = irradianceFromTriangle(triangle, receiver, normal).visible + irradianceFromPoint(point, receiver, normal).visible;
+    vec3 sum = irradianceFromTriangle(triangle, receiver, normal).visible +
+               irradianceFromPoint(point, receiver, normal).visible;
     EXPECT_NEAR(irradianceFromEmitters(2u, receiver, normal).visible, sum, 1e-6);
     vec2 u = randomVec2();
     EmitterPoint on = pointOnEmitter(triangle, u);
     EXPECT_EQ(emitRay(triangle, on, 0.25, u).direction, emitFromTriangle(triangle, on, 0.25, u).direction);
     EXPECT_EQ(emitRay(point, pointOnEmitter(point, u), 0.25, u).direction, uniformSphere(u));
-    EXPECT_EQ(seeEmitter(triangle, on, normal).intensity.visible, seeTriangleEmitter(triangle, on, normal).intensity.visible);
+    EXPECT_EQ(seeEmitter(triangle, on, normal).intensity.visible,
+              seeTriangleEmitter(triangle, on, normal).intensity.visible);
 }
 
 // The lowest of some bits.

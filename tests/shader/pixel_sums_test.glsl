@@ -77,9 +77,11 @@ TEST_N(BrightSamplesAreClampedAndCounted, 1) {
     EXPECT_EQ(uvec4(sums.invisible.r, sums.invisible.b), uvec4(1u, 1u << 26u, 4u, 0u));
     addSample(sums, SampleRadiance(Radiance2(vec3(kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(sums.clamped, 10u);
-    addSample(sums, SampleRadiance(Radiance2(vec3(0.99 * kFilmLargest, 0.0, 0.0), vec3(0.0)), 0.0, 0.0), 1.0, someRounding());
+    Radiance2 radiance = Radiance2(vec3(0.99 * kFilmLargest, 0.0, 0.0), vec3(0.0));
+    addSample(sums, SampleRadiance(radiance, 0.0, 0.0), 1.0, someRounding());
     EXPECT_EQ(sums.clamped, 10u);
-    addSample(sums, SampleRadiance(Radiance2(vec3(0.0), vec3(0.0, 0.0, 0.01 * kFilmLargest)), 0.0, 0.0), 100.0, someRounding());
+    radiance = Radiance2(vec3(0.0), vec3(0.0, 0.0, 0.01 * kFilmLargest));
+    addSample(sums, SampleRadiance(radiance, 0.0, 0.0), 100.0, someRounding());
     EXPECT_EQ(uvec2(sums.nonFinite, sums.clamped), uvec2(7u, 11u));
 }
 

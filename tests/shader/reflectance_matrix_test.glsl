@@ -121,11 +121,13 @@ TEST(GatheringAndShootingGiveTheSame) {
     ReflectanceMatrix third = randomMatrix();
     Radiance2 display = randomLight();
     Radiance2 emission = randomLight();
-    ReflectanceMatrix importance = matrixMultiply(matrixMultiply(matrixMultiply(matrixIdentity(), first), second), third);
+    ReflectanceMatrix importance =
+        matrixMultiply(matrixMultiply(matrixMultiply(matrixIdentity(), first), second), third);
     Radiance2 flux = matrixApply(first, matrixApply(second, matrixApply(third, emission)));
     EXPECT_EQ(off(matrixApply(importance, emission), flux), 0.0);
     // Only the displayed row: d W, which as a column is W^T d.
-    Radiance2 row = matrixApply(transposed(third), matrixApply(transposed(second), matrixApply(transposed(first), display)));
+    Radiance2 row =
+        matrixApply(transposed(third), matrixApply(transposed(second), matrixApply(transposed(first), display)));
     EXPECT_EQ(inner(row, emission), inner(display, flux));
 }
 
@@ -171,7 +173,8 @@ TEST(ChannelsDoNotMix) {
     for (int i = 1; i < 3; i++) {
         int k = (c + i) % 3;
         wrong += off(channel(matrixMultiply(otherA, otherB), k), channel(matrixMultiply(a, b), k));
-        wrong += off(channel(matrixMultiplyFirstColumn(otherA, otherB), k), channel(matrixMultiplyFirstColumn(a, b), k));
+        wrong += off(channel(matrixMultiplyFirstColumn(otherA, otherB), k),
+                     channel(matrixMultiplyFirstColumn(a, b), k));
         wrong += distance(channel(matrixApply(otherA, otherL), k), channel(matrixApply(a, l), k));
     }
     EXPECT_EQ(wrong, 0.0);
@@ -189,8 +192,8 @@ TEST_N(WeightOfOneEntryIsThatOfItsRow, 12) {
     vec3 entry = vec3(0.0);
     entry[testIndex() % 3u] = 4.0;
     uint e = testIndex() / 3u;
-    ReflectanceMatrix a = ReflectanceMatrix(e == 0u ? entry : vec3(0.0), e == 1u ? entry : vec3(0.0), e == 2u ? entry : vec3(0.0),
-                                e == 3u ? entry : vec3(0.0));
+    ReflectanceMatrix a = ReflectanceMatrix(e == 0u ? entry : vec3(0.0), e == 1u ? entry : vec3(0.0),
+                                            e == 2u ? entry : vec3(0.0), e == 3u ? entry : vec3(0.0));
     EXPECT_EQ(matrixWeight(a, vec2(0.25, 0.75)), e < 2u ? 1.0 : 3.0);
 }
 

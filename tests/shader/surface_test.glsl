@@ -131,7 +131,7 @@ TEST_N(AdjointKnownAnswers, 1) {
 }
 
 // |wi . Ns| / |wi . Ng| if both normals see wi, else 0 (Veach 1997, section 5.3): times f and the geometric
-// cosine, it is what gathering computes: f times the shading cosine.
+// cosine, it is what the path tracer computes: f times the shading cosine.
 TEST(AdjointIsItsDefinition) {
     vec3 geometric = randomDirection();
     vec3 shading = normalize(geometric + 0.9 * randomDirection());

@@ -7,9 +7,8 @@
 
 namespace duolux {
 
-/// Runs a program with the arguments and `--report`, and returns the report. Trees are built instead of being
-/// read from the cache, so that the durations are those of a new scene. Throws MachineError if the program
-/// fails; its messages remain on standard error.
+/// Runs a program with the arguments and `--report`, and returns the report. Throws MachineError if the
+/// program fails; its messages remain on standard error.
 nlohmann::json runProgram(const std::filesystem::path& program, std::vector<std::string> arguments,
                           const std::filesystem::path& report);
 

@@ -113,25 +113,26 @@ class PathTracer {
         const std::uint64_t count = emitters_.choices;
         auto index = static_cast<std::size_t>(random.bits() * count >> 32);
         if (random.uniform() >= emitters_.records[index].threshold) index = emitters_.records[index].alias;
-        const shared::DeviceEmitter& light = emitters_.records[index];
+        const shared::DeviceEmitter& sampled = emitters_.records[index];
         float u = random.uniform();
         float v = random.uniform();
         if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
-        const vec3 edge1 = light.v1 - light.v0;
-        const vec3 edge2 = light.v2 - light.v0;
+        const vec3 edge1 = sampled.v1 - sampled.v0;
+        const vec3 edge2 = sampled.v2 - sampled.v0;
         const vec3 normal = glm::normalize(glm::cross(edge1, edge2));
-        vec3 toLight = light.v0 + u * edge1 + v * edge2 - vertex.position;
+        vec3 toLight = sampled.v0 + u * edge1 + v * edge2 - vertex.position;
         const bool front = glm::dot(normal, toLight) < 0.0f;
-        toLight += normal * (front ? light.positionError : -light.positionError);
+        toLight += normal * (front ? sampled.positionError : -sampled.positionError);
         const float cosAtVertex = glm::dot(vertex.normal, toLight);
-        if (cosAtVertex <= 0.0f || !(front || (light.flags & shared::kEmitterBack) != 0u)) return vec3(0.0f);
+        if (cosAtVertex <= 0.0f || !(front || (sampled.flags & shared::kEmitterBack) != 0u))
+            return vec3(0.0f);
         const float distance = glm::length(toLight);
         const vec3 direction = toLight / distance;
         const float cosine = cosAtVertex / distance;
         const float pdf =
-            light.density * distance * distance / std::max(std::abs(glm::dot(normal, direction)), 1e-12f);
+            sampled.density * distance * distance / std::max(std::abs(glm::dot(normal, direction)), 1e-12f);
         if (embree_.occluded(vertex.position, direction, distance)) return vec3(0.0f);
-        return light.invisible * (cosine / kPi * balance(pdf, cosine / kPi) / pdf);
+        return sampled.invisible * (cosine / kPi * balance(pdf, cosine / kPi) / pdf);
     }
 
     const EmbreeScene& embree_;

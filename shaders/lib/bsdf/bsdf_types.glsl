@@ -6,7 +6,7 @@
 #include "shaders/shared/material_layout.h"
 
 // What a path carries: radiance to the camera (it is traced from the camera), or importance to the emitters (it is
-// traced from an emitter). Both modes evaluate the same BSDF f(view, light). With shading normals the cosine of `wi`
+// traced from an emitter). Both modes evaluate the same BSDF f(view, incident). With shading normals the cosine of `wi`
 // differs: radiance mode has that to the shading normal, importance mode that to the geometric normal (Veach, "Robust
 // Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3).
 const uint kModeRadiance = 0u;
@@ -36,8 +36,9 @@ struct BsdfSample {
 // Stands for the infinite density of a delta distribution. Every other strategy has no weight beside it.
 const float kDeltaPdf = 1e30;
 
+// The direction towards the camera, and the direction from which light is incident.
 vec3 viewOf(vec3 wo, vec3 wi, uint mode) { return mode == kModeRadiance ? wo : wi; }
-vec3 lightOf(vec3 wo, vec3 wi, uint mode) { return mode == kModeRadiance ? wi : wo; }
+vec3 incidentOf(vec3 wo, vec3 wi, uint mode) { return mode == kModeRadiance ? wi : wo; }
 
 // The normal to which `wi` has its cosine.
 vec3 normalOfMode(BsdfFrame frame, uint mode) { return mode == kModeRadiance ? frame.shading : frame.geometric; }
@@ -45,9 +46,10 @@ vec3 normalOfMode(BsdfFrame frame, uint mode) { return mode == kModeRadiance ? f
 // The cosine that goes with f.
 float bsdfCosine(BsdfFrame frame, vec3 wi, uint mode) { return abs(dot(normalOfMode(frame, mode), wi)); }
 
-// Whether `wi` leaves the surface on the side of `wo`, and light arrives on the front of the shading normal.
+// Whether `wi` leaves the surface on the side of `wo`, and light is incident above the horizon of the shading
+// normal.
 bool reflects(BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
-    return dot(frame.geometric, wi) > 0.0 && dot(frame.shading, lightOf(wo, wi, mode)) > 0.0;
+    return dot(frame.geometric, wi) > 0.0 && dot(frame.shading, incidentOf(wo, wi, mode)) > 0.0;
 }
 
 #endif

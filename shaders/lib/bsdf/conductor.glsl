@@ -45,8 +45,8 @@ float ggxPdf(float alpha, vec3 wo, vec3 wi) {
     return ggxDistribution(alpha, normalize(wo + wi)) * 0.5 / (wo.z + smithTerm(alpha, wo.z));
 }
 
-// Reflects wo at a visible microfacet normal: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG
-// 2023. The result may be below the horizon, where nothing is reflected.
+// Reflects wo at a visible microfacet normal: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps",
+// HPG 2023. The result may be below the horizon, where nothing is reflected.
 vec3 ggxSample(float alpha, vec3 wo, vec2 u) {
     vec3 stretched = normalize(vec3(wo.xy * alpha, wo.z));
     float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
@@ -80,8 +80,8 @@ float ggxMeanLoss(float roughness) {
     return max(r * r * r * r * series, 1e-6);
 }
 
-// The albedo of what is scattered several times, in proportion to the loss of single scattering: the Fresnel reflectance
-// of each further reflection (mean of Schlick's: f + (1 - f) / 21).
+// The albedo of what is scattered several times, in proportion to the loss of single scattering: the Fresnel
+// reflectance of each further reflection (mean of Schlick's: f + (1 - f) / 21).
 vec3 multipleScattering(vec3 normalIncidence, float roughness) {
     vec3 fresnel = normalIncidence + (1.0 - normalIncidence) * (1.0 / 21.0);
     float meanLoss = ggxMeanLoss(roughness);
@@ -98,7 +98,8 @@ vec3 conductorEvaluate(Bsdf bsdf, vec3 wo, vec3 wi) {
     return fresnel * ggxEvaluate(ggxAlpha(bsdf), o, i) + multipleScattering(bsdf.baseColor, bsdf.roughness) * losses;
 }
 
-// Density of conductorSample, per steradian; 0 for a mirror. Multiple scattering is left to the sampling of another lobe.
+// Density of conductorSample, per steradian; 0 for a mirror. Multiple scattering is left to the sampling of another
+// lobe.
 float conductorPdf(Bsdf bsdf, vec3 wo, vec3 wi) {
     return isMirror(bsdf) ? 0.0 : ggxPdf(ggxAlpha(bsdf), aboveHorizon(wo), wi);
 }

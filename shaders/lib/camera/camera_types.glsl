@@ -22,10 +22,10 @@ struct CameraConnection {
     float importance;
 };
 
-// Position on the image plane, both coordinates from -1 to 1 with y upwards, of a point in pixels from the top left
-// corner.
-vec2 onImagePlane(DeviceCamera camera, vec2 pixel) {
-    vec2 ndc = pixel / vec2(camera.width, camera.height) * 2.0 - 1.0;
+// Position on the image plane, both coordinates from -1 to 1 with y upwards. `filmPosition`: in pixels from the top
+// left corner of the image.
+vec2 onImagePlane(DeviceCamera camera, vec2 filmPosition) {
+    vec2 ndc = filmPosition / vec2(camera.width, camera.height) * 2.0 - 1.0;
     return vec2(ndc.x, -ndc.y);
 }
 

@@ -4,8 +4,8 @@
 
 #include "shaders/lib/camera/camera_types.glsl"
 
-CameraRay orthographicRay(DeviceCamera camera, vec2 pixel) {
-    vec2 onPlane = onImagePlane(camera, pixel);
+CameraRay orthographicRay(DeviceCamera camera, vec2 filmPosition) {
+    vec2 onPlane = onImagePlane(camera, filmPosition);
     return CameraRay(camera.start + camera.right * onPlane.x + camera.up * onPlane.y, camera.forward);
 }
 

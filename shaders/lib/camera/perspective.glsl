@@ -6,8 +6,8 @@
 
 // The ray begins at startDepth, just before the scene: from a distant origin, single precision could not separate the
 // scene's triangles.
-CameraRay perspectiveRay(DeviceCamera camera, vec2 pixel) {
-    vec2 onPlane = onImagePlane(camera, pixel);
+CameraRay perspectiveRay(DeviceCamera camera, vec2 filmPosition) {
+    vec2 onPlane = onImagePlane(camera, filmPosition);
     vec3 across = camera.right * onPlane.x + camera.up * onPlane.y;
     return CameraRay(camera.start + across * camera.startDepth, normalize(camera.forward + across));
 }

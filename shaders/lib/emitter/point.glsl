@@ -1,5 +1,5 @@
-// Point emitters: the same radiant intensity in all directions. Nothing can meet one, so it is reached only by next-event
-// estimation and shooting.
+// Point emitters: the same radiant intensity in all directions. No ray can meet one, so the path tracer finds their
+// light only as direct light.
 #ifndef DUOLUX_LIB_EMITTER_POINT_GLSL
 #define DUOLUX_LIB_EMITTER_POINT_GLSL
 

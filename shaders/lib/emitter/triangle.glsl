@@ -49,7 +49,7 @@ EmitterSample sampleTriangleEmitter(Emitter emitter, uint index, vec3 point, vec
     return s;
 }
 
-// Light that reaches a point from the whole emitter, nothing being in between: the integral of radiance times the cosine
+// Light that reaches a point from the whole emitter if nothing is in between: the integral of radiance times the cosine
 // with `normal` over the solid angle.
 Radiance2 irradianceFromTriangle(Emitter emitter, vec3 point, vec3 normal) {
     vec3 a = emitter.v0 - point;

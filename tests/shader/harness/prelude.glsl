@@ -60,8 +60,8 @@ FloatValue_ value_(vec4 a) { return FloatValue_(a, 4u); }
 
 Evidence evidence_(uvec4 actual, uvec4 expected, uint type, uvec2 components, float difference, float allowed) {
     return Evidence(uint[4](actual.x, actual.y, actual.z, actual.w),
-                    uint[4](expected.x, expected.y, expected.z, expected.w), type, components.x, components.y, difference,
-                    allowed);
+                    uint[4](expected.x, expected.y, expected.z, expected.w), type, components.x, components.y,
+                    difference, allowed);
 }
 
 void note_(int line, uvec4 bits, uint type, uint components) {
@@ -100,7 +100,8 @@ void expectation_(int line, bool ok, Evidence seen) {
         bool first = ~invocation == expectations[line].first && expectations[line].firstSeen.components == 0u;
         if (first) expectations[line].firstSeen = seen;
         if (bits == expectations[line].worst) atomicMax(expectations[line].worstAt, ~invocation);
-    } else if (testDispatch.pass == kPassWorst && !ok && ~invocation == expectations[line].worstAt && bits == expectations[line].worst) {
+    } else if (testDispatch.pass == kPassWorst && !ok && ~invocation == expectations[line].worstAt &&
+               bits == expectations[line].worst) {
         expectations[line].worstSeen = seen;
     }
 }
@@ -143,7 +144,8 @@ void expectEqual_(int line, BoolValue_ a, BoolValue_ b) {
 }
 void expectEqual_(int line, IntValue_ a, IntValue_ b) {
     float off = wordDifference_(uvec4(a.v) ^ 0x80000000u, uvec4(b.v) ^ 0x80000000u);
-    expectation_(line, a.v == b.v, evidence_(uvec4(a.v), uvec4(b.v), kValueInt, uvec2(a.components, b.components), off, 0.0));
+    expectation_(line, a.v == b.v,
+                 evidence_(uvec4(a.v), uvec4(b.v), kValueInt, uvec2(a.components, b.components), off, 0.0));
 }
 void expectEqual_(int line, UintValue_ a, UintValue_ b) {
     uvec2 components = uvec2(a.components, b.components);
@@ -151,7 +153,8 @@ void expectEqual_(int line, UintValue_ a, UintValue_ b) {
 }
 
 Evidence floatEvidence_(FloatValue_ a, FloatValue_ b, float off, float allowed) {
-    return evidence_(floatBitsToUint(a.v), floatBitsToUint(b.v), kValueFloat, uvec2(a.components, b.components), off, allowed);
+    return evidence_(floatBitsToUint(a.v), floatBitsToUint(b.v), kValueFloat, uvec2(a.components, b.components), off,
+                     allowed);
 }
 void expectUlp_(int line, FloatValue_ a, FloatValue_ b, float allowed) {
     float off = largestOf_(ulps_(a.v, b.v));
@@ -168,7 +171,8 @@ void expectDifferent_(int line, BoolValue_ a, BoolValue_ b) {
     expectation_(line, a.v != b.v, evidence_(a.v, b.v, kValueBool, uvec2(a.components, b.components), 0.0, 0.0));
 }
 void expectDifferent_(int line, IntValue_ a, IntValue_ b) {
-    expectation_(line, a.v != b.v, evidence_(uvec4(a.v), uvec4(b.v), kValueInt, uvec2(a.components, b.components), 0.0, 0.0));
+    expectation_(line, a.v != b.v,
+                 evidence_(uvec4(a.v), uvec4(b.v), kValueInt, uvec2(a.components, b.components), 0.0, 0.0));
 }
 void expectDifferent_(int line, UintValue_ a, UintValue_ b) {
     expectation_(line, a.v != b.v, evidence_(a.v, b.v, kValueUint, uvec2(a.components, b.components), 0.0, 0.0));
