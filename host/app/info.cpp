@@ -153,12 +153,13 @@ void printEnergy(const LoadedScene& scene) {
     const LargestFactor largest = largestFactor(scene);
     fmt::print("\n");
     printField("energy", fmt::format("mean albedo {} by area", colour(meanAlbedo(scene))));
-    printField("", fmt::format("one interaction returns at most {:.4g} of what arrives ({} in {})",
-                               largest.factor, inQuotes(largest.material), largest.channel));
+    printField(
+        "", fmt::format("one interaction returns at most {:.4g} of what arrives ({} in {}){}", largest.factor,
+                        inQuotes(largest.material), largest.channel, largest.mayGrow ? "," : ""));
     if (largest.mayGrow) {
-        printField("", "that is as much as arrives or more: the series of bounces may grow without end,");
-        printField("", fmt::format("and the picture is that of a stated number of bounces (here {})",
-                                   scene.settings.bounces));
+        printField("",
+                   fmt::format("which may make light grow with every bounce; the picture shows {} bounces",
+                               scene.settings.bounces));
     }
 }
 

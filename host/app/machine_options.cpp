@@ -48,8 +48,8 @@ void addThreadsOption(CLI::App& command) {
     command
         .add_option_function<unsigned>(
             "--threads", chooseThreads,
-            "Threads of the program and of the software driver, also more than cores (default, and 0: one "
-            "for each core); images are identical for every number")
+            "Number of threads of the program and of the software driver; may exceed the number of cores "
+            "(default and 0: one per core). Images do not depend on it")
         ->type_name("N")
         ->check(wholeNumber(0, 1024));
 }

@@ -199,8 +199,10 @@ void RenderCommand::end(const RenderOutput& output) {
                     samplesName(scene_.settings));
     if (failure_) {
         write_.sayFailures();
-        throw MachineError(fmt::format("{}; {} {}", failure_->what(),
-                                       write_.failed() ? "there are" : "wrote the result so far,", there));
+        throw MachineError(
+            write_.failed()
+                ? fmt::format("{}; {} were traced, but not all files were written", failure_->what(), there)
+                : fmt::format("{}; wrote the result so far, {}", failure_->what(), there));
     }
     if (const auto status = stopStatus(); status && (output.statistics.stopped || write_.failed())) {
         write_.sayFailures();

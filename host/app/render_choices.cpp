@@ -103,8 +103,8 @@ SampleRange chooseSamples(const RenderOptions& options, const std::optional<Samp
     if (resumed) {
         const std::uint32_t there = resumed->origin.samples.begin + samplesTaken(resumed->state.film);
         if (there > samples.end) {
-            warn(fmt::format("{} holds samples up to {} of every pixel; they are kept", options.resume,
-                             there));
+            warn(fmt::format("{} already holds samples up to {}, more than requested; all are kept",
+                             options.resume, there));
             samples.end = there;
         }
     }

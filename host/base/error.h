@@ -22,7 +22,7 @@ class InputError : public Error {
                std::string_view remedy);
 };
 
-/// Something is asked for that cannot be, or is not understood.
+/// A request that is malformed, contradictory or not supported.
 class UsageError : public Error {
   public:
     using Error::Error;

@@ -10,7 +10,7 @@
 
 namespace duolux {
 
-/// XXH3 (Collet, 2019) of whatever is added: tells different contents apart, and damage, but not malice.
+/// XXH3 (Collet, 2019) of whatever is added. Detects accidental changes; not cryptographic.
 class Hasher {
   public:
     Hasher();

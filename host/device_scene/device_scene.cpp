@@ -188,7 +188,7 @@ void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Sc
     if (device.kind != DeviceKind::kGpu || bytes <= device.memoryBytes) return;
     throw MemoryError(
         fmt::format("{}: {} triangles take {} MiB of device memory, but {} ({}) has {}; expected fewer "
-                    "triangles, or a device with more memory, as the cpu",
+                    "triangles, or a device with more memory, such as the CPU",
                     scene.source.string(), scene.geometry.triangles.size(), (bytes >> 20) + 1, device.name,
                     device.driver, device.memoryBytes >> 20));
 }

@@ -70,8 +70,8 @@ TransportTraits analyseTransport(const Scene& scene) {
     } else {
         traits.transparency = shared::kTransparencyGeneral;
     }
-    const bool loseVisible = !traits.visibleCrosses;
-    traits.cameraTransparency = traits.transparency == shared::kTransparencyIdentity && !loseVisible
+    const bool blocksVisible = !traits.visibleCrosses;
+    traits.cameraTransparency = traits.transparency == shared::kTransparencyIdentity && !blocksVisible
                                     ? shared::kTransparencyGeneral
                                     : traits.transparency;
 

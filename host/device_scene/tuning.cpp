@@ -102,9 +102,9 @@ Layout layoutThatFits(const DeviceInfo& device, Layout chosen, const TuningChoic
     if (bytes > largestBuffer(device, other)) return chosen;
     if (!choice.layout) return other;
     throw DeviceError(fmt::format(
-        "layout {}: a buffer of this scene takes {} bytes, more than the {} that {} ({}) can bind so; layout "
-        "{} can hold it",
-        nameOf(chosen), bytes, largestBuffer(device, chosen), device.name, device.driver, nameOf(other)));
+        "layout {}: a buffer of this scene takes {} bytes, but {} ({}) can bind at most {} bytes with this "
+        "layout; layout {} can hold it",
+        nameOf(chosen), bytes, device.name, device.driver, largestBuffer(device, chosen), nameOf(other)));
 }
 
 }  // namespace duolux

@@ -137,7 +137,7 @@ std::string essentialChunks(std::string_view bytes, const std::string& file) {
                                                           "gAMA", "cHRM", "sRGB", "sBIT", "iCCP"};
     constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", kSignature);
     if (!bytes.starts_with(kPng)) {
-        throw InputError(file, "", "is not a PNG image, whatever its name says", "expected a PNG image");
+        throw InputError(file, "", "is not a PNG image despite its name", "expected a PNG image");
     }
     std::string out(kPng);
     std::uint64_t imageBytes = 0;  // compressed

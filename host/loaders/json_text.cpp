@@ -43,7 +43,7 @@ class KeyWatch : public nlohmann::json_sax<json> {
         if (dynamic_cast<const json::out_of_range*>(&error) == nullptr) return false;
         beginElement();
         throw InputError(file_, path(), "is " + shortened(token),
-                         "expected a number that a computer can hold, of at most 1e308 in magnitude");
+                         "expected a number of at most 1e308 in magnitude");
     }
 
     bool key(string_t& key) override {

@@ -50,7 +50,7 @@ class PlyLoader {
     Mesh run() {
         const PlyElement& vertices = required("vertex");
         const PlyElement& faces = required("face");
-        std::size_t left = 2;  // what comes behind both is of no interest
+        std::size_t left = 2;  // elements after both are not read
         for (const PlyElement& element : header_.elements) {
             if (left == 0) break;
             if (&element == &vertices || &element == &faces) {

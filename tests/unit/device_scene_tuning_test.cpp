@@ -106,8 +106,8 @@ TEST(Tuning, AnotherLayoutTakesWhatDoesNotFitUnlessOneIsAskedFor) {
     EXPECT_EQ(fitted(Layout::kRayQuery, 1024 * kMebibyte + 1), Layout::kRayQuery);
     EXPECT_EQ(asked(Layout::kStorage, 128 * kMebibyte), Layout::kStorage);
     EXPECT_EQ(messageOf([&] { asked(Layout::kStorage, 128 * kMebibyte + 16); }),
-              "layout storage: a buffer of this scene takes 134217744 bytes, more than the 134217728 that "
-              "a device (a driver) can bind so; layout texel can hold it");
+              "layout storage: a buffer of this scene takes 134217744 bytes, but a device (a driver) "
+              "can bind at most 134217728 bytes with this layout; layout texel can hold it");
     DeviceInfo small = device;
     small.maxTexelBufferElements = 65536;
     EXPECT_EQ(layoutThatFits(small, Layout::kTexel, {}, kMebibyte), Layout::kTexel);
@@ -131,7 +131,7 @@ TEST(DeviceMemory, OfAGpuMustHoldTheScene) {
         EXPECT_STREQ(
             e.what(),
             "big.obj: 7 triangles take 8193 MiB of device memory, but Card (driver 1) has 8192; expected "
-            "fewer triangles, or a device with more memory, as the cpu");
+            "fewer triangles, or a device with more memory, such as the CPU");
     }
     device.kind = DeviceKind::kCpu;
     EXPECT_NO_THROW(requireDeviceMemory(device, device.memoryBytes + 1, scene));

@@ -24,13 +24,13 @@ void parseAndRun(int argc, char** argv) {
         "page (index.html), as tables (tables.md) and as JSON (results.json).",
         "duolux-paper"};
     setUpProgram(app);
-    app.add_option("-o,--output", folder, "Folder for the report; made if need be")
+    app.add_option("-o,--output", folder, "Folder for the report; created if it does not exist")
         ->required()
         ->type_name("DIR");
     app.add_option("--duolux", setup.duolux, "The renderer")->required()->type_name("PROGRAM");
     app.add_option("--duolux-gl", setup.duoluxGl, "OpenGL's renderer")->required()->type_name("PROGRAM");
     app.add_option("--triangles", setup.triangles,
-                   "Of the scene with two spheres (speed is measured at 1,000 to 2,000,000)")
+                   "Triangles of the two-spheres scene (speed is measured at 1,000 to 2,000,000)")
         ->check(wholeNumber(1000, 50'000'000))
         ->capture_default_str()
         ->type_name("N");
@@ -38,8 +38,7 @@ void parseAndRun(int argc, char** argv) {
         ->check(wholeNumber(32, 4096))
         ->capture_default_str()
         ->type_name("N");
-    app.add_flag("--quick", setup.quick,
-                 "Few samples, few lights, small scenes for speed: to see that all works");
+    app.add_flag("--quick", setup.quick, "A short run that only checks that everything works");
     if (!parseArguments(app, {argv + 1, argv + argc})) return;
     setup.folder = folder;
     if (setup.quick) {

@@ -182,7 +182,8 @@ void run(const PeerOptions& options) {
 
 void parseAndRun(int argc, char** argv) {
     CLI::App app(
-        "Duolux and Embree (single rays) in turns: the same rays, the same path tracer, on the same cores.",
+        "Compares Duolux with Embree (single rays) on the same rays, with the same path tracer, on the same\n"
+        "cores, in alternating runs.",
         "duolux-peers");
     setUpProgram(app);
     PeerOptions options;
@@ -192,10 +193,10 @@ void parseAndRun(int argc, char** argv) {
     addRepeatable(app, "--only", options.only,
                   "Only benchmarks whose names contain this text; may be repeated");
     app.add_option("--device", options.device, "Duolux's device")->capture_default_str();
-    app.add_option("--repeat", options.repeat, "Runs that count")
+    app.add_option("--repeat", options.repeat, "Measured runs")
         ->capture_default_str()
         ->check(wholeNumber(1, 1000));
-    app.add_option("--size", options.size, "Pixels a side")
+    app.add_option("--size", options.size, "Width and height in pixels")
         ->capture_default_str()
         ->check(wholeNumber(1, 16384));
     app.add_option("--spp", options.spp, "Samples per pixel")
@@ -204,7 +205,7 @@ void parseAndRun(int argc, char** argv) {
     app.add_option("--bounces", options.bounces, "Bounces")
         ->capture_default_str()
         ->check(wholeNumber(0, 65535));
-    app.add_option("--json", options.json, "File for all results");
+    app.add_option("--json", options.json, "Write all results as JSON to this file");
     if (parseArguments(app, {argv + 1, argv + argc})) run(options);
 }
 
