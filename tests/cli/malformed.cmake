@@ -1,5 +1,6 @@
+file(GLOB cases CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} malformed_*.cpp)
 duolux_test(malformed_test
-  SOURCES malformed_test.cpp malformed_meshes.cpp malformed_scenes.cpp malformed_options.cpp
+  SOURCES ${cases}
   LINK duolux_test_program)
 target_compile_definitions(malformed_test PRIVATE DUOLUX_EXECUTABLE="$<TARGET_FILE:duolux>")
 add_dependencies(malformed_test duolux)

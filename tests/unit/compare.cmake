@@ -1,1 +1,0 @@
-duolux_test(compare_test SOURCES compare_metrics_test.cpp compare_flip_test.cpp LINK duolux_compare)

@@ -1,1 +1,0 @@
-duolux_test(generators_test SOURCES generators_two_spheres_test.cpp scene_files.cpp LINK duolux_generators duolux_view)

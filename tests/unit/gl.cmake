@@ -1,1 +1,0 @@
-duolux_test(gl_scene_test SOURCES gl_spot_lights_test.cpp gl_view_test.cpp LINK duolux_gl_scene duolux_test_support)

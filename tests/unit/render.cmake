@@ -1,5 +1,0 @@
-duolux_test(render_test SOURCES device_scene_emitter_table_test.cpp device_scene_surface_planes_test.cpp device_scene_transport_test.cpp device_scene_tuning_test.cpp render_checkpoint_test.cpp render_film_quantum_test.cpp render_names_test.cpp render_pixel_order_test.cpp render_schedule_test.cpp LINK duolux_render)
-# A program of its own, because it changes its environment.
-duolux_test(render_failure_test DEVICE SOURCES render_failure_test.cpp LINK duolux_render duolux_view)
-target_compile_definitions(render_failure_test PRIVATE DUOLUX_FAULT_LAYER="$<TARGET_FILE_DIR:duolux_fault_layer>")
-add_dependencies(render_failure_test duolux_fault_layer)
