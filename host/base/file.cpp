@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/magic.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -211,6 +212,13 @@ void copyInto(const Destination& destination, int source) {
     synchroniseDescriptor(target.value);
 }
 
+/// A file in memory, for contents that are complete before any of them are written to their destination.
+int fileInMemory() {
+    const int file = ::memfd_create("duolux", MFD_CLOEXEC);
+    if (file < 0) fail(errno);
+    return file;
+}
+
 /// Waits until the entries of a folder are on the disk. Skipped if the folder cannot be read.
 void synchroniseFolder(const fs::path& folder) {
     const Descriptor opened{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
@@ -230,19 +238,22 @@ void writeTo(const Destination& destination, const Write& write) {
             if (!exists || !isFolderForbidden(e.code().value())) throw;
         }
     }
-    const bool beside = temporary.has_value();
-    if (!beside) temporary.emplace(fs::temp_directory_path(), 0600);
+    if (!temporary) {
+        FileWriter memory(fileInMemory());
+        write(memory);
+        memory.synchronise();
+        copyInto(destination, memory.descriptor());
+        return;
+    }
     write(temporary->writer());
     temporary->writer().synchronise();
-    if (beside) {
-        if (exists) temporary->takeOver(*destination.old);
-        const int error = temporary->renameTo(destination.path);
-        if (error == 0) {
-            synchroniseFolder(folder);
-            return;
-        }
-        if (!exists || !(isFolderForbidden(error) || error == EBUSY || error == EXDEV)) fail(error);
+    if (exists) temporary->takeOver(*destination.old);
+    const int error = temporary->renameTo(destination.path);
+    if (error == 0) {
+        synchroniseFolder(folder);
+        return;
     }
+    if (!exists || !(isFolderForbidden(error) || error == EBUSY || error == EXDEV)) fail(error);
     copyInto(destination, temporary->writer().descriptor());
 }
 

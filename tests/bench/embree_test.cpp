@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/scene/emitters.h"
 #include "host/tools/bench/builtin_scenes.h"
 #include "host/tools/bench/ray_sets.h"

@@ -5,10 +5,10 @@
 #include <map>
 #include <numeric>
 
-#include "host/base/temporary_folder.h"
 #include "host/bvh/binary_bvh.h"
 #include "host/bvh/collapse.h"
 #include "host/bvh/wide_bvh.h"
+#include "host/cli/temporary_folder.h"
 #include "host/film/film.h"
 #include "host/tools/bench/builtin_scenes.h"
 #include "host/view/load.h"

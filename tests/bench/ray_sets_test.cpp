@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/scene/hash.h"
 #include "host/tools/bench/builtin_scenes.h"
 #include "host/tools/bench/trace_kernel.h"

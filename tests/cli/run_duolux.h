@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "tests/support/run_program.h"
 
 namespace duolux::test {

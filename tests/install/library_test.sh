@@ -10,7 +10,7 @@ fail() { echo "FAILED: $1" >&2 && exit 1; }
 
 "$cmake" --install "$build" --prefix "$work/prefix" >"$work/install.log" || fail "cmake --install"
 if grep -rqF "$source" "$work/prefix/lib/cmake" "$work/prefix/include"; then fail "the package names the source tree"; fi
-for header in host/render/context.h host/film/codec.h host/base/process.h host/vk/handles.h; do
+for header in host/render/context.h host/film/codec.h host/base/memory.h host/vk/handles.h; do
   if [ -e "$work/prefix/include/duolux/$header" ]; then fail "$header, an internal header, is installed"; fi
 done
 "$cmake" -S "$source/tests/install" -B "$work/example" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_COMPILER="$compiler" \

@@ -7,7 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "tests/mutation/try_mutations.h"
 
 namespace duolux::test {

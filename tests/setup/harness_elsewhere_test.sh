@@ -7,7 +7,7 @@ trap 'rm -rf "$work"' EXIT
 fail() { echo "FAILED: $1" >&2 && exit 1; }
 
 cd "$work"
-for part in tests/shader/harness tests/support host/vk host/base shaders/shared/types.h; do
+for part in tests/shader/harness tests/support host/vk host/base host/cli/temporary_folder.h shaders/shared/types.h; do
   mkdir -p "duolux/$(dirname $part)"
   cp -r "$source/$part" "duolux/$part"
 done

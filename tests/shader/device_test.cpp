@@ -6,7 +6,7 @@
 #include <chrono>
 #include <optional>
 
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/vk/handles.h"
 #include "tests/support/run_program.h"
 

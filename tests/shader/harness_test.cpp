@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/base/file.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "tests/shader/harness/compiler.h"
 #include "tests/shader/harness/coverage.h"
 #include "tests/shader/harness/glsl_test.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/generators/two_spheres.h"
 #include "host/view/load.h"
 #include "tests/statistical/films.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/generators/two_spheres.h"
 #include "host/render/render.h"
 #include "host/view/load.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/generators/two_spheres.h"
 #include "host/view/load.h"
 #include "tests/statistical/films.h"
@@ -146,7 +146,7 @@ TEST_F(RendererTest, BuildsTheTreeOnce) {
 
 /// Memory for the update is refused: the next render tries again, with the tree that the host has.
 TEST_F(RendererTest, GoesOnAfterAnUpdateWithoutMemory) {
-    if (kAddressSanitizer) return;  // which needs more address space than any limit allows
+    if (kAddressSanitizer) return;         // which needs more address space than any limit allows
     ::mallopt(M_MMAP_THRESHOLD, 1 << 16);  // arrays are mapped anew, so that the limit applies
     const TemporaryFolder folder;
     writeTwoSpheres(folder.path(), 100'000);

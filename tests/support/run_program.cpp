@@ -12,7 +12,7 @@
 #include <string_view>
 #include <thread>
 
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 
 namespace duolux::test {
 

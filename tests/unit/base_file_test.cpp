@@ -19,7 +19,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 
 namespace duolux {
 namespace {
@@ -287,12 +287,18 @@ TEST_F(FileTest, ALinkStaysOne) {
     EXPECT_EQ(filesInFolder(), 2u);
 }
 
-TEST_F(FileTest, APipeStaysOneAndIsWrittenInto) {
+TEST_F(FileTest, APipeStaysOneAndIsWrittenIntoOnceAllIsThere) {
+    const auto half = [](FileWriter& file) {
+        file.write("half of the b");
+        throw std::runtime_error("disk on fire");
+    };
     const fs::path pipe = folder_ / "pipe.exr";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     ASSERT_GE(reader, 0);
     checkWritable(pipe);
+    EXPECT_EQ(errorOf([&] { writeFileAtomically(pipe, half); }),
+              pipe.string() + ": cannot write: disk on fire");
     writeFile(pipe, "bytes");
     char bytes[16];
     const ssize_t count = ::read(reader, bytes, sizeof bytes);

@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "host/base/temporary_folder.h"
 #include "host/bvh/binary_bvh.h"
 #include "host/bvh/collapse.h"
 #include "host/bvh/pairs.h"
+#include "host/cli/temporary_folder.h"
 #include "host/generators/two_spheres.h"
 #include "host/view/load.h"
 #include "shaders/shared/bvh_layout.h"

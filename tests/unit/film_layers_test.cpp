@@ -14,7 +14,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/film/film.h"
 #include "tests/unit/film_samples.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/base/file.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/film/image.h"
 
 namespace duolux::test {

@@ -9,7 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/hash.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/render/checkpoint.h"
 
 namespace duolux::test {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "host/loaders/tally.h"
 #include "host/scene/scene.h"
 

@@ -8,8 +8,8 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
-#include "host/base/process.h"
 #include "host/bvh/wide_bvh.h"
+#include "host/cli/process.h"
 #include "host/render/light_tracer_kernel.h"
 #include "host/render/path_tracer_kernel.h"
 #include "host/render/pixel_order.h"

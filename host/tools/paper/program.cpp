@@ -4,7 +4,7 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/process.h"
+#include "host/cli/process.h"
 
 namespace duolux {
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "host/base/error.h"
-#include "host/base/temporary_folder.h"
 #include "host/bvh/wide_bvh.h"
 #include "host/cli/options.h"
 #include "host/cli/outputs.h"
 #include "host/cli/program.h"
+#include "host/cli/temporary_folder.h"
 #include "host/render/render.h"
 #include "host/scene/emitters.h"
 #include "host/tools/bench/bench_report.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "host/base/file.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "tests/shader/harness/kernel_run.h"
 #include "tests/support/run_program.h"
 

@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "host/base/file.h"
-#include "host/base/temporary_folder.h"
+#include "host/cli/temporary_folder.h"
 #include "tests/shader/harness/compiler.h"
 #include "tests/shader/harness/kernel_run.h"
 #include "tests/shader/harness/source_text.h"

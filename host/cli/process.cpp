@@ -1,4 +1,4 @@
-#include "host/base/process.h"
+#include "host/cli/process.h"
 
 #include <spawn.h>
 #include <sys/wait.h>

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "host/base/process.h"
+#include "host/cli/process.h"
 
 namespace duolux {
 namespace {
