@@ -16,6 +16,7 @@
 #include "host/base/error.h"
 #include "host/base/nearest_name.h"
 #include "host/base/version.h"
+#include "host/cli/json.h"
 #include "host/cli/options.h"
 #include "host/cli/outputs.h"
 #include "host/tools/compare/heat_map.h"
@@ -61,11 +62,7 @@ Limit parseLimit(const std::string& text) {
 RadianceImage readSameSize(const std::string& path, const RadianceImage& first,
                            const std::string& firstPath) {
     RadianceImage image = readDisplayedImage(path);
-    if (image.width != first.width || image.height != first.height) {
-        throw InputError(
-            path, "", fmt::format("is {} x {} pixels", image.width, image.height),
-            fmt::format("expected {} x {}, the size of {}", first.width, first.height, firstPath));
-    }
+    requireSameSize(image, path, first, firstPath);
     return image;
 }
 
@@ -111,7 +108,7 @@ void printJson(const Arguments& arguments, const Comparison& c) {
         json[std::string(name)] =
             std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
     }
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}", jsonText(json));
 }
 
 void checkLimits(const std::vector<Limit>& limits, const Arguments& arguments, const Comparison& c) {

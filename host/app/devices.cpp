@@ -7,6 +7,7 @@
 #include "host/app/commands.h"
 #include "host/app/machine_options.h"
 #include "host/base/error.h"
+#include "host/cli/json.h"
 #include "host/device_scene/json.h"
 #include "host/vk/device_info.h"
 #include "shaders/shared/bvh_layout.h"
@@ -59,9 +60,7 @@ void runDevices(bool json) {
         // No device is usable; the list shows why.
     }
     if (json) {
-        fmt::print(
-            "{}\n",
-            devicesJson(devices, chosen).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        fmt::print("{}", jsonText(devicesJson(devices, chosen)));
     } else {
         for (const DeviceInfo& device : devices)
             printDevice(device, &device == chosen);

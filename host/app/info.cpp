@@ -16,6 +16,8 @@
 #include "host/app/view_options.h"
 #include "host/base/printable.h"
 #include "host/base/utf8.h"
+#include "host/cli/json.h"
+#include "host/loaders/scene_file.h"
 #include "host/scene/energy.h"
 #include "host/scene/hash.h"
 #include "host/view/load.h"
@@ -199,8 +201,7 @@ void addInfoCommand(CLI::App& app) {
         const nlohmann::ordered_json lamp = addedLamp(scene);
         removeLamp(scene);
         if (options->json) {
-            fmt::print("{}\n",
-                       infoJson(scene, lamp).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+            fmt::print("{}", jsonText(infoJson(scene, lamp)));
         } else {
             printInfo(scene, lamp);
         }

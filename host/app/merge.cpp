@@ -8,6 +8,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/film_images.h"
+#include "host/app/render_warnings.h"
 #include "host/base/error.h"
 #include "host/cli/console.h"
 #include "host/cli/options.h"
@@ -45,9 +46,8 @@ void warnIfIncomplete(const std::string& file, const Checkpoint& part) {
     const std::uint64_t taken = film.totalSamples() + film.lightPaths();
     const std::uint64_t wanted = part.origin.samples.size() * (std::uint64_t{film.width()} * film.height());
     if (taken == wanted) return;
-    warn(
-        fmt::format("{} has {} of {} {}; --resume traces the remaining ones", file, taken, wanted,
-                    part.origin.settings.integrator == Integrator::kLightTracer ? "light paths" : "samples"));
+    warn(fmt::format("{} has {} of {} {}; --resume traces the remaining ones", file, taken, wanted,
+                     samplesName(part.origin.settings)));
 }
 
 void runMerge(const MergeOptions& options) {

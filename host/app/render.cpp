@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -17,6 +16,7 @@
 #include "host/app/render_warnings.h"
 #include "host/app/report.h"
 #include "host/app/signals.h"
+#include "host/base/clock.h"
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/cli/console.h"
@@ -28,12 +28,6 @@
 namespace duolux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// One run of `duolux render`: its stages, in the order of run().
 class RenderCommand {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/version.h"
+#include "host/cli/json.h"
 #include "host/device_scene/json.h"
 #include "host/scene/hash.h"
 
@@ -83,7 +84,7 @@ std::string renderReport(const LoadedScene& scene, SampleRange samples, const De
                           {"cut_off_by_bounces", statistics.cutOffByBounces()}};
     report["peak_bytes"] = {{"host", peakHostBytes()}, {"device", statistics.deviceBytes}};
     report["warnings"] = textsOf(scene.warnings);
-    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return jsonText(report);
 }
 
 }  // namespace duolux

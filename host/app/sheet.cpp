@@ -38,11 +38,7 @@ void runSheet(const SheetOptions& options) {
     for (std::size_t i = 0; i < options.images.size(); ++i) {
         const std::filesystem::path path = options.images[i];
         RadianceImage image = readImage(path);
-        if (i > 0 && (image.width != cells[0].image.width || image.height != cells[0].image.height)) {
-            throw InputError(path.string(), "", fmt::format("is {} x {} pixels", image.width, image.height),
-                             fmt::format("expected {} x {}, the size of {}", cells[0].image.width,
-                                         cells[0].image.height, options.images[0]));
-        }
+        if (i > 0) requireSameSize(image, path, cells[0].image, options.images[0]);
         cells.push_back(
             {std::move(image), i < options.labels.size() ? options.labels[i] : path.stem().string()});
     }

@@ -23,6 +23,10 @@ namespace duolux {
 
 namespace fs = std::filesystem;
 
+fs::path folderOf(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
 std::string readFile(const fs::path& path) {
     std::error_code ec;
     if (fs::is_directory(path, ec)) {
@@ -63,10 +67,6 @@ struct Descriptor {
 void synchroniseDescriptor(int descriptor) {
     if (::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS) return;
     fail(errno);
-}
-
-fs::path folderOf(const fs::path& path) {
-    return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
 /// The file to which a path refers.

@@ -9,6 +9,9 @@
 
 namespace duolux {
 
+/// The folder of the file that a path names; "." for a name alone.
+std::filesystem::path folderOf(const std::filesystem::path& path);
+
 /// Reads a whole file. Throws InputError if it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
@@ -36,9 +39,10 @@ class FileWriter {
 /// Writes a file atomically: a reader sees either the old file or the complete new one. `write` fills a
 /// temporary file in the same folder, which is renamed to `path` once it is on the disk, and removed if
 /// anything throws. The old file's permissions are kept, and its owner if permitted. A write-protected file
-/// is not replaced. A symbolic link is followed and kept. Devices and pipes are written to directly, as are
-/// files that cannot be replaced (in a folder without permission, or a mount point). Throws MachineError with
-/// `path`; duolux::Error exceptions of `write` pass through.
+/// is not replaced. A symbolic link is followed and kept. Devices, pipes, and files that cannot be replaced
+/// (in a folder without permission, or a mount point) are written to directly, once `write` has filled a file
+/// in memory or the temporary file. Throws MachineError with `path`; duolux::Error exceptions of `write` pass
+/// through.
 void writeFileAtomically(const std::filesystem::path& path, const std::function<void(FileWriter&)>& write);
 
 /// Writes a whole file with writeFileAtomically.

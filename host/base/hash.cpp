@@ -5,6 +5,10 @@
 
 namespace duolux {
 
+std::uint64_t hashOf(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
+
 struct Hasher::State {
     XXH3_state_t xxh3;
 };

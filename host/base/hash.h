@@ -10,6 +10,9 @@
 
 namespace duolux {
 
+/// XXH3 of these bytes, for keys and tables: much faster than a Hasher for a few of them.
+std::uint64_t hashOf(std::span<const std::byte> bytes);
+
 /// XXH3 (Collet, 2019) of whatever is added. Detects accidental changes; not cryptographic.
 class Hasher {
   public:

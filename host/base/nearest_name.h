@@ -8,9 +8,6 @@
 
 namespace duolux {
 
-/// The text with ASCII letters in lower case.
-std::string lowerCase(std::string_view text);
-
 /// The smallest number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
 /// (restricted Damerau-Levenshtein distance, ignoring ASCII case).
 std::size_t editDistance(std::string_view a, std::string_view b);

@@ -50,9 +50,7 @@ std::string withoutMiddle(std::string text, std::size_t mostBytes) {
     constexpr std::string_view kLeftOut = " ... ";
     const std::size_t kept = mostBytes - kLeftOut.size();
     std::size_t begin = kept - kept / 3, end = text.size() - kept / 3;
-    const auto isInCharacter = [&](std::size_t at) {
-        return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u;
-    };
+    const auto isInCharacter = [&](std::size_t at) { return at < text.size() && continuesUtf8(text[at]); };
     while (isInCharacter(begin))
         --begin;
     while (isInCharacter(end))

@@ -11,9 +11,8 @@ std::optional<Utf8Character> firstUtf8(std::string_view text) {
     if (count < 2 || count > 4 || count > text.size()) return std::nullopt;
     char32_t character = lead & (0x7Fu >> count);
     for (std::size_t i = 1; i < count; ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        if ((byte & 0xC0u) != 0x80u) return std::nullopt;
-        character = character << 6 | (byte & 0x3Fu);
+        if (!continuesUtf8(text[i])) return std::nullopt;
+        character = character << 6 | (static_cast<unsigned char>(text[i]) & 0x3Fu);
     }
     constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800,
                                       0x10000};  // smaller characters have shorter encodings

@@ -31,10 +31,6 @@ constexpr const char* kIsRead = "is read by this command";
     refuse(output, fmt::format("{}; expected another file", use));
 }
 
-fs::path folderOf(const fs::path& path) {
-    return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 /// The message of the exception that `step` throws, if any.
 std::optional<std::string> problemOf(const std::string& file, const std::function<void()>& step) {
     try {

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "host/base/hash.h"
 #include "host/base/parallel.h"
 
 namespace duolux {
@@ -85,13 +86,11 @@ class Finder {
                                            kCells * plane.normal.z, 4.0 * kCells * plane.offset / size_};
         PlaneKeys out{};
         for (int grid = 0; grid < 2; ++grid) {
-            std::uint64_t key = 0x9e3779b97f4a7c15ull + static_cast<std::uint64_t>(grid);
-            for (const double value : values) {
-                const auto cell = static_cast<std::int64_t>(std::floor(value + 0.25 + 0.5 * grid));
-                key = (std::rotl(key, 23) ^ static_cast<std::uint64_t>(cell)) * 0xbf58476d1ce4e5b9ull;
-                key ^= key >> 29;
-            }
-            out[static_cast<std::size_t>(grid)] = key;
+            std::array<std::int64_t, 5> cell{};
+            for (std::size_t i = 0; i < values.size(); ++i)
+                cell[i] = static_cast<std::int64_t>(std::floor(values[i] + 0.25 + 0.5 * grid));
+            cell.back() = grid;
+            out[static_cast<std::size_t>(grid)] = hashOf(std::as_bytes(std::span(cell)));
         }
         return out;
     }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "host/base/clock.h"
 #include "host/base/error.h"
 #include "host/device_scene/emitter_table.h"
 #include "host/device_scene/material_records.h"
@@ -17,10 +18,6 @@
 namespace duolux {
 
 namespace {
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 Bounds widenedBounds(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
     Bounds bounds{glm::vec3(0.0f), glm::vec3(0.0f)};

@@ -28,13 +28,6 @@ struct Pattern {
 
 }  // namespace
 
-std::vector<bool> usedMaterials(const Scene& scene) {
-    std::vector<bool> used(scene.materials.size());
-    for (std::uint32_t m : scene.geometry.materials)
-        used[m] = true;
-    return used;
-}
-
 bool isMirror(const Material& material) {
     return material.metallic > 0.0f && material.roughness * material.roughness < shared::kSmoothAlpha;
 }

@@ -29,10 +29,8 @@ struct TransportTraits {
     static constexpr std::uint32_t kUnlimited = 0xffffffffu;
 };
 
+/// Materials that no triangle refers to do not count.
 TransportTraits analyseTransport(const Scene& scene);
-
-/// True at the indices of materials that triangles refer to; only these count.
-std::vector<bool> usedMaterials(const Scene& scene);
 
 /// Whether a part of the surface reflects each direction into one other. The light tracer cannot connect
 /// mirrors to the camera.

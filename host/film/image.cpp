@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/memory.h"
+#include "host/base/text.h"
 #include "host/film/codec.h"
 
 namespace duolux {
@@ -30,10 +31,7 @@ constexpr Format kFormats[] = {
 };
 
 const Format* formatOf(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
+    const std::string extension = lowerCase(path.extension().string());
     const auto* format = std::ranges::find(kFormats, extension, &Format::extension);
     return format != std::end(kFormats) ? format : nullptr;
 }
@@ -132,6 +130,14 @@ RadianceImage readDisplayedImage(const std::filesystem::path& path) {
     const Format* format = formatOf(path);
     if (format == nullptr || format->decode != decodeExr) return readImage(path);
     return withMemoryToRead(path, [&] { return decodeDisplayedExr(readFile(path), path.string()); });
+}
+
+void requireSameSize(const RadianceImage& image, const std::filesystem::path& file,
+                     const RadianceImage& first, const std::filesystem::path& firstFile) {
+    if (image.width == first.width && image.height == first.height) return;
+    throw InputError(
+        file.string(), "", fmt::format("is {} x {} pixels", image.width, image.height),
+        fmt::format("expected {} x {}, the size of {}", first.width, first.height, firstFile.string()));
 }
 
 }  // namespace duolux

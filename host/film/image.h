@@ -68,4 +68,8 @@ RadianceImage readImage(const std::filesystem::path& path);
 /// B, whatever row d combined the components.
 RadianceImage readDisplayedImage(const std::filesystem::path& path);
 
+/// Throws InputError unless the image that was read from a file has the size of the one from `firstFile`.
+void requireSameSize(const RadianceImage& image, const std::filesystem::path& file,
+                     const RadianceImage& first, const std::filesystem::path& firstFile);
+
 }  // namespace duolux

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/base/srgb.h"
+#include "host/base/utf8.h"
 #include "host/film/codec.h"
 #include "host/film/text.h"
 
@@ -61,9 +62,8 @@ Layout layOut(std::span<const SheetCell> cells, std::uint32_t columns) {
 /// The text, or the part of its beginning that fits with an ellipsis.
 std::string shorten(std::string text, float size, std::uint32_t width) {
     if (textWidth(text, size) <= width) return text;
-    const auto isContinuation = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; };
     while (!text.empty() && textWidth(text + kEllipsis, size) > width) {
-        while (text.size() > 1 && isContinuation(text.back()))
+        while (text.size() > 1 && continuesUtf8(text.back()))
             text.pop_back();
         text.pop_back();
     }

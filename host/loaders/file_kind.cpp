@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <string>
+
+#include "host/base/text.h"
 
 namespace duolux {
 
@@ -78,10 +79,7 @@ std::string lowerHead(std::string_view bytes) {
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     const std::size_t first = bytes.find_first_not_of(kBlanks);
     if (first == std::string_view::npos) return {};
-    std::string head(bytes.substr(first, kHead));
-    std::transform(head.begin(), head.end(), head.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return head;
+    return lowerCase(bytes.substr(first, kHead));
 }
 
 bool isBinaryStl(std::string_view bytes) {

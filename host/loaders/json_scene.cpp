@@ -19,6 +19,7 @@
 #include "host/loaders/json_surface.h"
 #include "host/loaders/json_text.h"
 #include "host/loaders/scene_contents.h"
+#include "host/loaders/tally.h"
 #include "host/scene/compose.h"
 #include "host/scene/mesh.h"
 
@@ -254,9 +255,8 @@ void readMaterials(const JsonNode& node, const std::set<std::string>& unused, Lo
         }
     }
     if (unusedCount == 0) return;
-    scene.warnings.push_back(
-        fmt::format("{}: {}{}: no face has this material", scene.source.string(), firstUnused,
-                    unusedCount == 1 ? "" : fmt::format(" (and {} more)", unusedCount - 1)));
+    scene.warnings.push_back(fmt::format("{}: {}{}: no face has this material", scene.source.string(),
+                                         firstUnused, andMore(unusedCount)));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/nearest_name.h"
+#include "host/base/text.h"
 #include "host/loaders/source_text.h"
 
 namespace duolux {

@@ -13,6 +13,7 @@
 #include "host/base/printable.h"
 #include "host/loaders/mtl_unused.h"
 #include "host/loaders/source_text.h"
+#include "host/loaders/tally.h"
 #include "host/scene/mesh.h"
 
 namespace duolux {
@@ -172,9 +173,8 @@ class MtlReader {
     void warn(Oddity kind, std::string_view what, std::string_view consequence) {
         const auto& [count, first] = oddities_[kind];
         if (count == 0) return;
-        library_.warnings.push_back(
-            fmt::format("{}: line {}: {}{}: {}", text_.file(), text_.lineOf(first), what,
-                        count == 1 ? "" : fmt::format(" (and {} more)", count - 1), consequence));
+        library_.warnings.push_back(fmt::format("{}: line {}: {}{}: {}", text_.file(), text_.lineOf(first),
+                                                what, andMore(count), consequence));
     }
 
     void tolerate(Oddity oddity, std::string_view line, const std::string& problem,

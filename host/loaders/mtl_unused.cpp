@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "host/base/nearest_name.h"
 #include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace duolux {
 

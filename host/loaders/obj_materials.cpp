@@ -8,7 +8,9 @@
 
 #include "host/base/nearest_name.h"
 #include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/loaders/source_text.h"
+#include "host/loaders/tally.h"
 
 namespace duolux {
 
@@ -130,8 +132,8 @@ void ObjMaterials::warnOfUndefined(Mesh& mesh, const std::vector<bool>& used) co
         if (count++ == 0) first = &entries_[i].material.name;
     }
     if (count == 0) return;
-    const std::string what = fmt::format("material {}{} is not defined by any MTL file", inQuotes(*first),
-                                         count == 1 ? "" : fmt::format(" (and {} more)", count - 1));
+    const std::string what =
+        fmt::format("material {}{} is not defined by any MTL file", inQuotes(*first), andMore(count));
     if (files_.reading() == Reading::kStrict) {
         throw InputError(mesh_.string(), "", what, "expected a newmtl of that name");
     }
@@ -139,9 +141,7 @@ void ObjMaterials::warnOfUndefined(Mesh& mesh, const std::vector<bool>& used) co
 }
 
 void ObjMaterials::moveTo(Mesh& mesh) {
-    std::vector<bool> used(entries_.size(), false);
-    for (const std::uint32_t material : mesh.geometry.materials)
-        used[material] = true;
+    const std::vector<bool> used = usedMaterials(mesh.geometry, entries_.size());
     std::move(read_.begin(), read_.end(), std::back_inserter(mesh.files));
     warnOfMissing(mesh);
     std::move(warnings_.begin(), warnings_.end(), std::back_inserter(mesh.warnings));

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "host/base/printable.h"
+#include "host/loaders/tally.h"
 
 namespace duolux {
 
@@ -92,7 +93,7 @@ void warnOfOddities(const SourceText& text, const Tally<ObjOddity>& oddities,
     for (const auto& [kind, what, consequence] : kObjOddities) {
         const auto& [count, first] = oddities[kind];
         if (count == 0) continue;
-        const std::string more = count == 1 ? "" : fmt::format(" (and {} more)", count - 1);
+        const std::string more = andMore(count);
         warnings.push_back(
             fmt::format("{}: line {}: {}{}: {}", text.file(), text.lineOf(first), what, more, consequence));
     }

@@ -33,9 +33,7 @@ void PlyOddities::warn(const std::filesystem::path& path, const PlyHeader& heade
     for (const auto& [kind, what, consequence] : kPlyOddities) {
         const auto& [number, first] = found_[static_cast<std::size_t>(kind)];
         if (number == 0) continue;
-        warnings.push_back(fmt::format("{}: {}: {}{}: {}", file, first, what,
-                                       number == 1 ? "" : fmt::format(" (and {} more)", number - 1),
-                                       consequence));
+        warnings.push_back(fmt::format("{}: {}: {}{}: {}", file, first, what, andMore(number), consequence));
     }
     if (overlongLines_ > 0) {
         warnings.push_back(fmt::format("{}: {} line{} more numbers than the header says: ignored", file,

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "host/loaders/tally.h"
 #include "host/scene/compose.h"
 #include "host/scene/origin.h"
 
@@ -103,7 +104,7 @@ class Losses {
         if (count_ == 0) return;
         scene.warnings.push_back(fmt::format(
             "{}{}: single precision moves vertices by up to {:.2g}; typical edges are {:.2g} long", first_,
-            count_ == 1 ? "" : fmt::format(" (and {} more)", count_ - 1), error_, edge_));
+            andMore(count_), error_, edge_));
     }
 
   private:

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/loaders/json_scene.h"
 #include "host/loaders/obj.h"
 #include "host/loaders/ply.h"

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace duolux {
 
@@ -18,6 +21,11 @@ struct OddityText {
     const char* what;
     const char* consequence;
 };
+
+/// What a warning about the first of `count` cases adds: " (and 2 more)"; empty if it is the only one.
+inline std::string andMore(std::size_t count) {
+    return count <= 1 ? std::string() : fmt::format(" (and {} more)", count - 1);
+}
 
 /// For each value of an enumeration (whose last value is kCount): the number of occurrences in a text, and
 /// the offset of the first.

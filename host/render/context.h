@@ -1,7 +1,6 @@
 #pragma once
 
-#include <chrono>
-
+#include "host/base/clock.h"
 #include "host/device_scene/device_scene.h"
 #include "host/render/kernel_setup.h"
 #include "host/render/render.h"
@@ -10,8 +9,6 @@ namespace duolux {
 
 /// The state of a running render, shared by both integrators.
 struct RenderContext {
-    using Clock = std::chrono::steady_clock;
-
     Device& device;
     const Scene& scene;
     const RenderSettings& settings;
@@ -36,7 +33,7 @@ struct RenderContext {
         if (control.onStart) control.onStart();
         start = lastReceived = lastCheckpoint = Clock::now();
     }
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+    double seconds() const { return secondsSince(start); }
 
     /// Whether a dispatch that starts now could exceed the time limit.
     bool timeIsUp() const;

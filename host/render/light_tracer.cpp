@@ -17,7 +17,7 @@ class LightTracer {
     explicit LightTracer(RenderContext& context) : context_(context) {}
 
     void run() {
-        const auto pipelineStart = RenderContext::Clock::now();
+        const Clock::time_point pipelineStart = Clock::now();
         const RenderControl& control = context_.control;
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxPaths =
@@ -26,8 +26,7 @@ class LightTracer {
                                  {control.filmBandPixels, control.noInt64Atomics});
         if (control.maxSamplesPerLane > 0) kernel.limitLanePaths(control.maxSamplesPerLane);
         statistics.lanePaths = kernel.lanePaths();
-        statistics.pipelineSeconds =
-            std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
+        statistics.pipelineSeconds = secondsSince(pipelineStart);
         statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();
         trace(kernel);
     }

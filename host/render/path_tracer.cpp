@@ -18,7 +18,7 @@ class PathTracer {
         : context_(context), pixels_(pixelOrder(context.film.width(), context.film.height())) {}
 
     void run() {
-        const auto pipelineStart = RenderContext::Clock::now();
+        const Clock::time_point pipelineStart = Clock::now();
         const RenderControl& control = context_.control;
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxPixels = std::min<std::uint32_t>(
@@ -26,8 +26,7 @@ class PathTracer {
             control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathTracerKernel::kMaxPixels);
         statistics.directLightInClosedForm = chooseClosedForm();
         PathTracerKernel kernel(context_.inputs(), pixels_, maxPixels, statistics.directLightInClosedForm);
-        statistics.pipelineSeconds =
-            std::chrono::duration<double>(RenderContext::Clock::now() - pipelineStart).count();
+        statistics.pipelineSeconds = secondsSince(pipelineStart);
         statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();
         trace(kernel);
     }

@@ -74,9 +74,7 @@ bool anySurfaceScatters(const Scene& scene) {
 }
 
 bool seriesMayGrow(const Scene& scene) {
-    std::vector<bool> used(scene.materials.size());
-    for (const std::uint32_t material : scene.geometry.materials)
-        used[material] = true;
+    const std::vector<bool> used = usedMaterials(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
         if (used[i] && materialEnergy(scene.reflectanceOf(material), meanAlbedo(material)).grows())

@@ -46,6 +46,13 @@ const char* nameOf(Integrator integrator) {
     return "";
 }
 
+std::vector<bool> usedMaterials(const Geometry& geometry, std::size_t count) {
+    std::vector<bool> used(count);
+    for (const std::uint32_t material : geometry.materials)
+        used[material] = true;
+    return used;
+}
+
 void noteContent(Scene& scene) {
     scene.content = {scene.geometry.positions.size(), scene.geometry.triangles.size(),
                      scene.materials.size()};

@@ -113,6 +113,12 @@ struct LoadedScene : Scene {
     std::uint64_t meshBytes = 0;               ///< size of those that hold meshes
 };
 
+/// True at the indices of materials, `count` of them, that triangles refer to.
+std::vector<bool> usedMaterials(const Geometry& geometry, std::size_t count);
+inline std::vector<bool> usedMaterials(const Scene& scene) {
+    return usedMaterials(scene.geometry, scene.materials.size());
+}
+
 /// Sets Scene::content: everything in the scene comes from its files.
 void noteContent(Scene& scene);
 

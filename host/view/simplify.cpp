@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <unordered_set>
 
+#include "host/base/hash.h"
 #include "host/base/parallel.h"
 #include "host/scene/emitters.h"
 
@@ -93,9 +95,7 @@ class Clusters {
 
 struct HashTriple {
     std::size_t operator()(const glm::uvec3& t) const {
-        std::uint64_t h =
-            t.x * 0x9e3779b97f4a7c15ull ^ t.y * 0xc2b2ae3d27d4eb4full ^ t.z * 0x165667b19e3779f9ull;
-        return static_cast<std::size_t>(h ^ (h >> 29));
+        return static_cast<std::size_t>(hashOf(std::as_bytes(std::span(&t, 1))));
     }
 };
 

@@ -9,18 +9,12 @@
 
 #include "host/base/error.h"
 #include "host/base/memory.h"
+#include "host/base/text.h"
 #include "host/vk/handles.h"
 
 namespace duolux {
 
 namespace {
-
-std::string lowered(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
 
 constexpr std::array kRayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                          VK_KHR_RAY_QUERY_EXTENSION_NAME,
@@ -165,7 +159,7 @@ const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::stri
     const auto isKind = [](DeviceKind kind) {
         return [kind](const DeviceInfo& d) { return d.kind == kind; };
     };
-    const std::string wanted = lowered(selector);
+    const std::string wanted = lowerCase(selector);
     const DeviceInfo* found = nullptr;
     std::uint32_t index = 0;
     const auto [end, ec] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
@@ -179,7 +173,8 @@ const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::stri
     } else if (ec == std::errc() && end == wanted.data() + wanted.size()) {
         found = first([&](const DeviceInfo& d) { return d.index == index; });
     } else {
-        found = first([&](const DeviceInfo& d) { return lowered(d.name).find(wanted) != std::string::npos; });
+        found =
+            first([&](const DeviceInfo& d) { return lowerCase(d.name).find(wanted) != std::string::npos; });
     }
     if (found != nullptr) return *found;
     std::string there;

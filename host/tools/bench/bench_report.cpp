@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/base/parallel.h"
 #include "host/base/version.h"
+#include "host/cli/json.h"
+#include "host/cli/processor.h"
 #include "host/device_scene/json.h"
 
 namespace duolux {
@@ -94,18 +95,11 @@ std::string benchJson(std::span<const BenchResult> results, const DeviceInfo& de
                                      {"device_seconds", onDevice},
                                      {"notes", r.notes}});
     }
-    return report.dump(2) + "\n";
+    return jsonText(report);
 }
 
 std::string hostProcessor() {
-    std::istringstream lines(readFile("/proc/cpuinfo"));
-    std::string line, model = "unknown processor";
-    while (std::getline(lines, line)) {
-        if (!line.starts_with("model name")) continue;
-        model = line.substr(line.find(':') + 2);
-        break;
-    }
-    return fmt::format("{} x {}", workerCount(), model);
+    return fmt::format("{} x {}", workerCount(), processorName());
 }
 
 Baseline readBaseline(const std::filesystem::path& file) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
+
+#include "host/base/clock.h"
 
 namespace duolux {
 
@@ -19,9 +20,9 @@ Spread spreadOfRates(const BenchResult& result, double BenchTimes::*seconds) {
 }  // namespace
 
 double secondsOf(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return secondsSince(start);
 }
 
 bool isChosen(const std::string& name, const std::vector<std::string>& only) {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <chrono>
 #include <cstring>
 
+#include "host/base/clock.h"
 #include "host/base/error.h"
 #include "shaders/embedded.h"
 #include "shaders/shared/bvh_layout.h"
@@ -62,7 +62,7 @@ BenchTimes TraceKernel::run(std::uint32_t passes) {
     const std::uint32_t blocks = (rayCount_ + blockRays_ - 1) / blockRays_;
     const std::uint32_t groups = (blocks * lanes_ + workgroupSize_ - 1) / workgroupSize_;
     const shared::TraceDispatch push{rayCount_, blockRays_};
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     commands_.submit("tracing rays", [&](const Commands& commands) {
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
             if (pass > 0) commands.barrier(Work::kKernels, Work::kKernels);
@@ -70,7 +70,7 @@ BenchTimes TraceKernel::run(std::uint32_t passes) {
         }
     });
     const double device = commands_.wait("tracing rays");
-    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double wall = secondsSince(start);
     results_.invalidate();
     return {wall, device};
 }

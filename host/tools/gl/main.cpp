@@ -2,16 +2,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "host/base/clock.h"
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/cli/console.h"
+#include "host/cli/json.h"
 #include "host/cli/options.h"
 #include "host/cli/outputs.h"
 #include "host/cli/program.h"
@@ -25,12 +26,6 @@
 namespace duolux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr float kCoarse = 0.5f;  // above this, lighting at vertices has errors of several percent
 
@@ -158,8 +153,7 @@ void run(const Arguments& arguments) {
                          {"upload", uploadSeconds},
                          {"draw", drawSeconds},
                          {"total", secondsSince(start)}};
-    write(arguments.report,
-          [&](const std::filesystem::path& path) { writeReport(path, report.dump(2) + "\n"); });
+    write(arguments.report, [&](const std::filesystem::path& path) { writeReport(path, jsonText(report)); });
     write.finish();
 }
 

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "host/base/parallel.h"
 #include "host/base/version.h"
+#include "host/cli/json.h"
+#include "host/cli/processor.h"
 
 namespace duolux {
 
@@ -64,18 +66,6 @@ std::vector<Table> errorTables(const ExperimentSetup& setup, const Experiment& e
     return tables;
 }
 
-/// The system's name for the processor.
-std::string processorName() {
-    std::ifstream lines("/proc/cpuinfo");
-    std::string name = "unknown processor";
-    unsigned count = 0;
-    for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("processor")) ++count;
-        if (line.starts_with("model name")) name = line.substr(line.find(':') + 2);
-    }
-    return fmt::format("{} ({} cores)", name, count);
-}
-
 Table residualTable(const Experiment& experiment) {
     Table table{
         "The residual with five lights, taken apart: mean eps in % (means of errors without sign: they do "
@@ -124,11 +114,11 @@ std::optional<double> crossing(const Experiment& experiment) {
 
 std::vector<std::string> remarks(const ExperimentSetup& setup, const Experiment& experiment) {
     std::vector<std::string> lines;
-    lines.push_back(
-        fmt::format("{} triangles, {} x {} pixels, OpenGL with {} passes. Transport on {}; OpenGL on {}; "
-                    "processor: {}. duolux {} ({}).",
-                    setup.triangles, setup.size, setup.size, setup.passes, experiment.device,
-                    experiment.openGl, processorName(), versionString(), commitString()));
+    lines.push_back(fmt::format(
+        "{} triangles, {} x {} pixels, OpenGL with {} passes. Transport on {}; OpenGL on {}; "
+        "processor: {}. duolux {} ({}).",
+        setup.triangles, setup.size, setup.size, setup.passes, experiment.device, experiment.openGl,
+        fmt::format("{} ({} cores)", processorName(), workerCount()), versionString(), commitString()));
     lines.emplace_back(
         "32x32 lights are drawn per fragment alone: at vertices, eight at a time, they would take 128 "
         "drawings of the scene a pass.");
@@ -304,7 +294,7 @@ std::string jsonReport(const ExperimentSetup& setup, const Experiment& experimen
                                  {"closed_form_total", r.transportAll},
                                  {"opengl_total", r.openGlAll}});
     }
-    return json.dump(2) + "\n";
+    return jsonText(json);
 }
 
 }  // namespace duolux

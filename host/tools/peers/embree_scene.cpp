@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstring>
 
+#include "host/base/clock.h"
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 
@@ -57,9 +57,9 @@ EmbreeScene::EmbreeScene(const Geometry& geometry) : state_(std::make_unique<Sta
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(state_->scene, mesh);
     rtcReleaseGeometry(mesh);
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     rtcCommitScene(state_->scene);
-    state_->buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    state_->buildSeconds = secondsSince(start);
     if (const RTCError error = rtcGetDeviceError(state_->device); error != RTC_ERROR_NONE) {
         throw MachineError(fmt::format("Embree: error {} while building", static_cast<int>(error)));
     }
