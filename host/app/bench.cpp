@@ -137,7 +137,7 @@ void addBenchCommand(CLI::App& app) {
     auto options = std::make_shared<BenchOptions>();
     command
         ->add_option("SCENE", options->scenes,
-                     fmt::format("Scene files (.json, .obj, .ply), or built-in: {}",
+                     fmt::format("Scene files ({}), or built-in: {}", sceneExtensions(),
                                  fmt::join(builtinSceneNames(), ", ")))
         ->capture_default_str();
     addRepeatable(

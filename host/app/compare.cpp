@@ -161,7 +161,8 @@ void run(const Arguments& arguments) {
 void addCompareCommand(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("compare", "Measure how far an image is from a reference");
-    command->add_option("IMAGE", arguments->image, "The image: .exr, .png or .pfm")->required();
+    command->add_option("IMAGE", arguments->image, fmt::format("The image: {}", imageExtensions()))
+        ->required();
     command->add_option("REFERENCE", arguments->reference, "The reference image, of the same size")
         ->required();
     command->add_flag("--json", arguments->json, "Print JSON");

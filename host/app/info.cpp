@@ -189,7 +189,7 @@ void addInfoCommand(CLI::App& app) {
         bool json = false, strict = false;
     };
     const auto options = std::make_shared<Options>();
-    command->add_option("SCENE", options->scene, "The scene: .obj, .ply or .json")->required();
+    command->add_option("SCENE", options->scene, fmt::format("The scene: {}", sceneExtensions()))->required();
     addViewOptions(*command, options->view);
     addStrictOption(*command, options->strict);
     addThreadsOption(*command);

@@ -86,7 +86,7 @@ void addMergeCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "merge", "Add partial renders; the result is identical to one render of all samples");
     addRepeatable(*command, "-o,--output", options->outputs,
-                  "Image to write: .exr, .png or .pfm; may be given several times")
+                  fmt::format("Image to write: {}; may be given several times", imageExtensions()))
         ->required()
         ->type_name("FILE");
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened (default: 0)")

@@ -11,6 +11,7 @@
 #include "host/base/named.h"
 #include "host/cli/options.h"
 #include "host/film/image.h"
+#include "host/loaders/scene_file.h"
 #include "host/render/render.h"
 #include "host/scene/reflectance.h"
 #include "host/scene/scene.h"
@@ -18,11 +19,13 @@
 namespace duolux {
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {
-    command.add_option("SCENE", options.scene, "The scene: .obj (with its .mtl), .ply or .json")->required();
+    command.add_option("SCENE", options.scene, fmt::format("The scene: {}", sceneExtensions()))->required();
     command
-        .add_option("-o,--output", options.outputs,
-                    "Images to write: .exr, .png or .pfm; may be given several times (default: SCENE's name "
-                    "+ .png in the current folder)")
+        .add_option(
+            "-o,--output", options.outputs,
+            fmt::format("Images to write: {}; may be given several times (default: SCENE's name + .png in "
+                        "the current folder)",
+                        imageExtensions()))
         ->type_name("FILE")
         ->allow_extra_args(false)
         ->take_all();
@@ -127,8 +130,8 @@ void sortWords(const CLI::App& command, RenderOptions& options) {
         (isOutput ? options.outputs : others).push_back(std::move(word));
     }
     if (others.empty()) {
-        throw UsageError(fmt::format("render: {} is an image; expected a SCENE: an .obj, .ply or .json file",
-                                     options.scene));
+        throw UsageError(fmt::format("render: {} is an image; expected a SCENE: an {} file", options.scene,
+                                     sceneExtensions()));
     }
     options.scene = others.front();
     others.erase(others.begin());

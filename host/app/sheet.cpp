@@ -55,7 +55,7 @@ void runSheet(const SheetOptions& options) {
 void addSheetCommand(CLI::App& app) {
     auto options = std::make_shared<SheetOptions>();
     CLI::App* command = app.add_subcommand("sheet", "Arrange images side by side with captions");
-    command->add_option("-o,--output", options->output, "The sheet: .png (or .exr, .pfm)")
+    command->add_option("-o,--output", options->output, fmt::format("The sheet: {}", imageExtensions()))
         ->required()
         ->type_name("FILE");
     command->add_option("--columns", options->columns, "Images in a row")

@@ -84,7 +84,8 @@ void checkOutputs(const std::vector<OutputFile>& outputs, const std::vector<std:
     }
     for (const OutputFile& output : outputs) {
         if (output.image && !isImagePath(output.file))
-            refuse(output, "is not the name of an image; expected one that ends with .exr, .png or .pfm");
+            refuse(output, fmt::format("is not the name of an image; expected one that ends with {}",
+                                       imageExtensions()));
         const fs::path path(output.file);
         std::error_code unseen;  // the path cannot be examined: checkWritable reports it below
         if (!fs::exists(folderOf(path), unseen) && !unseen)

@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t kMaxPixelsPerByte = 1032 * 8;
 
 struct Format {
-    const char* extension;
+    std::string_view extension;
     void (*encode)(const ImageRows&, const ImageOptions&, FileWriter&);
     RadianceImage (*decode)(std::string_view, const std::string&);
 };
@@ -79,6 +79,13 @@ void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileByt
     }
 }
 
+std::string imageExtensions() {
+    std::vector<std::string_view> extensions;
+    for (const Format& format : kFormats)
+        extensions.push_back(format.extension);
+    return alternatives(extensions);
+}
+
 bool isImagePath(const std::filesystem::path& path) {
     return formatOf(path) != nullptr;
 }
@@ -113,8 +120,8 @@ void writeImage(const std::filesystem::path& path, const ImageRows& rows, const 
     assert(rows.width > 0 && rows.height > 0);
     const Format* format = formatOf(path);
     if (format == nullptr) {
-        throw MachineError(
-            fmt::format("{}: unknown image format; expected .exr, .png or .pfm", path.string()));
+        throw UsageError(
+            fmt::format("{}: unknown image format; expected {}", path.string(), imageExtensions()));
     }
     writeFileAtomically(path, [&](FileWriter& file) { format->encode(rows, options, file); });
 }
@@ -122,7 +129,7 @@ void writeImage(const std::filesystem::path& path, const ImageRows& rows, const 
 RadianceImage readImage(const std::filesystem::path& path) {
     const Format* format = formatOf(path);
     if (format == nullptr)
-        throw InputError(path.string(), "", "unknown image format", "expected .exr, .png or .pfm");
+        throw InputError(path.string(), "", "unknown image format", "expected " + imageExtensions());
     return withMemoryToRead(path, [&] { return format->decode(readFile(path), path.string()); });
 }
 

@@ -45,7 +45,10 @@ struct ImageOptions {
     std::vector<std::pair<std::string, std::string>> metadata;  ///< EXR and PNG text attributes
 };
 
-/// True if writeImage supports the extension: .exr .png .pfm (case-insensitive).
+/// The extensions of the formats that can be read and written, for messages: ".exr, .png or .pfm".
+std::string imageExtensions();
+
+/// True if writeImage supports the extension (case-insensitive).
 bool isImagePath(const std::filesystem::path& path);
 
 /// True if the extension is that of a format that applies the exposure and clamps to [0, 1]: .png.
@@ -56,7 +59,8 @@ bool isExrPath(const std::filesystem::path& path);
 
 /// Writes by extension, atomically. EXR: float R G B (displayed), invisible.R/G/B, visible.R/G/B, and the
 /// layers as NAME.CHANNEL.
-/// PNG: 8 bit sRGB after exposure, clamped. PFM: float RGB (displayed). Throws MachineError.
+/// PNG: 8 bit sRGB after exposure, clamped. PFM: float RGB (displayed). Throws UsageError if the
+/// extension is of no format, MachineError if the file cannot be written.
 void writeImage(const std::filesystem::path& path, const ImageRows& rows, const ImageOptions& options);
 void writeImage(const std::filesystem::path& path, const RadianceImage& image, const ImageOptions& options);
 

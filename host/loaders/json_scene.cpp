@@ -138,8 +138,14 @@ glm::dmat4 readTransform(const JsonNode& node) {
     return matrix;
 }
 
+const std::string& expectedMesh() {
+    static const std::string text =
+        fmt::format("expected the path of an {} file, relative to the scene file", meshExtensions());
+    return text;
+}
+
 fs::path readMeshPath(const JsonNode& node) {
-    const char* const remedy = "expected the path of an .obj or .ply file, relative to the scene file";
+    const std::string& remedy = expectedMesh();
     const fs::path folder = node.file().parent_path();
     fs::path path = node.text(remedy);
     std::error_code ec;
@@ -165,8 +171,7 @@ void readObjects(const JsonNode& node, SceneContents& contents) {
     std::map<fs::path, std::size_t> meshes, byPath;
     for (const JsonNode& object : node.elements("expected an array of objects")) {
         object.expectKeys({"mesh", "transform"});
-        const fs::path path =
-            readMeshPath(object.require("mesh", "expected the path of an .obj or .ply file"));
+        const fs::path path = readMeshPath(object.require("mesh", expectedMesh()));
         const std::optional<JsonNode> transform = object.find("transform");
         std::optional<glm::dmat4> matrix;
         if (transform) matrix = readTransform(*transform);

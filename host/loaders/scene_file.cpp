@@ -25,11 +25,17 @@ struct MeshFormat {
 };
 constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}};
 
+constexpr std::string_view kJsonExtension = ".json";
+
 std::string extensionOf(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+    return lowerCase(path.extension().string());
+}
+
+std::vector<std::string_view> listMeshExtensions() {
+    std::vector<std::string_view> extensions;
+    for (const MeshFormat& format : kMeshFormats)
+        extensions.push_back(format.extension);
+    return extensions;
 }
 
 /// Null if no mesh format has this extension.
@@ -58,6 +64,16 @@ SceneFile readMeshScene(const fs::path& path, Reading reading) {
 
 }  // namespace
 
+std::string meshExtensions() {
+    return alternatives(listMeshExtensions());
+}
+
+std::string sceneExtensions() {
+    std::vector<std::string_view> extensions = listMeshExtensions();
+    extensions.push_back(kJsonExtension);
+    return alternatives(extensions);
+}
+
 bool isMeshPath(const fs::path& path) {
     return meshFormatOf(path) != nullptr;
 }
@@ -68,9 +84,9 @@ Mesh loadMesh(const fs::path& path, MaterialFiles& files) {
 }
 
 void requireScenePath(const fs::path& path) {
-    if (!isMeshPath(path) && extensionOf(path) != ".json")
+    if (!isMeshPath(path) && extensionOf(path) != kJsonExtension)
         throw InputError(path.string(), "", "has no extension of a scene file",
-                         "expected .obj, .ply or .json");
+                         "expected " + sceneExtensions());
 }
 
 SceneFile readSceneFile(const fs::path& path, Reading reading) {

@@ -21,6 +21,10 @@ struct SceneFile {
     bool hasBounces;              ///< whether the file specifies the number of bounces
 };
 
+/// The extensions of mesh files, and of all scene files, for messages: ".obj, .ply or .json".
+std::string meshExtensions();
+std::string sceneExtensions();
+
 /// Throws InputError unless the extension is that of a scene file: of a JSON scene or of a mesh.
 void requireScenePath(const std::filesystem::path& path);
 

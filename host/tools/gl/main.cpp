@@ -17,6 +17,7 @@
 #include "host/cli/outputs.h"
 #include "host/cli/program.h"
 #include "host/film/image.h"
+#include "host/loaders/scene_file.h"
 #include "host/scene/hash.h"
 #include "host/tools/gl/context.h"
 #include "host/tools/gl/draw.h"
@@ -164,9 +165,9 @@ void parseAndRun(int argc, char** argv) {
         "reference for the reflectance `local`. The scene's own reflectance is ignored.",
         "duolux-gl"};
     setUpProgram(app);
-    app.add_option("SCENE", arguments.scene, "The scene: .obj (with its .mtl), .ply or .json")->required();
+    app.add_option("SCENE", arguments.scene, fmt::format("The scene: {}", sceneExtensions()))->required();
     addRepeatable(app, "-o,--output", arguments.outputs,
-                  "Image to write: .exr, .png or .pfm; may be given several times")
+                  fmt::format("Image to write: {}; may be given several times", imageExtensions()))
         ->required()
         ->type_name("FILE");
     app.add_option("--lights", arguments.lights,
