@@ -53,7 +53,7 @@ struct MaterialsAndEmitters {
             buildEmitterTable(scene, emitters, traits.secondColumn || integrator == Integrator::kLightTracer);
         transport.emitterKinds = duolux::emitterKinds(emitters);
         transport.emitterChoices = table.choices;
-        transport.brightestEmission = duolux::brightestEmission(scene);
+        transport.brightestEmission = duolux::brightestEmission(scene.geometry, emitters);
         transport.closedFormApplies =
             traits.transparency == shared::kTransparencyIdentity && traits.lobes == shared::kLobeDiffuse &&
             scene.geometry.normals.empty() && table.choices > 0 && table.choices <= kMostClosedFormEmitters &&

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "host/scene/emitters.h"
-
 namespace duolux {
 
 namespace {
@@ -84,11 +82,11 @@ TransportTraits analyseTransport(const Scene& scene) {
     return traits;
 }
 
-double brightestEmission(const Scene& scene) {
-    const Bounds bounds = boundsOf(scene.geometry);
+double brightestEmission(const Geometry& geometry, std::span<const SceneEmitter> emitters) {
+    const Bounds bounds = boundsOf(geometry);
     const glm::dvec3 extent = glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower);
     double brightest = 0.0;
-    for (const SceneEmitter& emitter : listEmitters(scene)) {
+    for (const SceneEmitter& emitter : emitters) {
         const glm::dvec3 e = glm::max(emitter.emission.invisible, emitter.emission.visible);
         const double largest = std::max({e.x, e.y, e.z});
         switch (emitter.kind) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "host/scene/emitters.h"
 #include "host/scene/scene.h"
 #include "shaders/shared/path_tracer_layout.h"
 
@@ -36,8 +38,8 @@ TransportTraits analyseTransport(const Scene& scene);
 /// mirrors to the camera.
 bool isMirror(const Material& material);
 
-/// The largest emitted radiance over all materials, channels and components; of point emitters the irradiance
-/// at a distance of the scene's extent. 0 if nothing emits.
-double brightestEmission(const Scene& scene);
+/// The largest emitted radiance over all emitters of a scene with this geometry, channels and components; of
+/// point emitters the irradiance at a distance of the scene's extent. 0 if nothing emits.
+double brightestEmission(const Geometry& geometry, std::span<const SceneEmitter> emitters);
 
 }  // namespace duolux

@@ -1,9 +1,11 @@
 #include "host/scene/emitters.h"
 
+#include <algorithm>
+
 namespace duolux {
 
 bool emits(const Scene& scene, std::size_t triangle) {
-    return scene.materials[scene.geometry.materials[triangle]].emission.any();
+    return emits(scene.materials[scene.geometry.materials[triangle]]);
 }
 
 std::vector<SceneEmitter> listEmitters(const Scene& scene) {
@@ -14,15 +16,20 @@ std::vector<SceneEmitter> listEmitters(const Scene& scene) {
         const Emission& emission = scene.materials[geometry.materials[i]].emission;
         emitters.push_back({EmitterKind::kTriangle, i, emission, areaOf(geometry, i)});
     }
+    addPointEmitters(scene, emitters);
+    return emitters;
+}
+
+void addPointEmitters(const Scene& scene, std::vector<SceneEmitter>& emitters) {
     for (std::uint32_t i = 0; i < scene.pointEmitters.size(); ++i) {
         const PointEmitter& point = scene.pointEmitters[i];
         emitters.push_back({EmitterKind::kPoint, i, {point.invisible, point.visible, Sides::kFront}, 0.0});
     }
-    return emitters;
 }
 
 bool anyEmitter(const Scene& scene) {
-    return !listEmitters(scene).empty();
+    const auto isEmitting = [&](std::uint32_t material) { return emits(scene.materials[material]); };
+    return !scene.pointEmitters.empty() || std::ranges::any_of(scene.geometry.materials, isEmitting);
 }
 
 std::vector<std::uint32_t> emittingTriangles(std::span<const SceneEmitter> emitters) {

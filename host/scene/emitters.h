@@ -24,8 +24,14 @@ struct SceneEmitter {
 /// emitters in their order, even those without intensity.
 std::vector<SceneEmitter> listEmitters(const Scene& scene);
 
-/// Whether a triangle emits.
+/// Whether a material, or a triangle, emits.
+inline bool emits(const Material& material) {
+    return material.emission.any();
+}
 bool emits(const Scene& scene, std::size_t triangle);
+
+/// Appends the point emitters of a scene to a list of its triangles that emit.
+void addPointEmitters(const Scene& scene, std::vector<SceneEmitter>& emitters);
 
 /// Whether anything emits: listEmitters is not empty.
 bool anyEmitter(const Scene& scene);

@@ -62,14 +62,12 @@ Surface::Surface(const Scene& scene, std::size_t framedTriangles)
 std::vector<SceneEmitter> Surface::listEmitters() const {
     std::vector<SceneEmitter> emitters;
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-        const Emission& emission = materialOf(i).emission;
+        const Material& material = materialOf(i);
         const float area = glm::length(triangles_[i].areaVector());
-        if (emission.any() && area > 0.0f)
-            emitters.push_back({EmitterKind::kTriangle, i, emission, static_cast<double>(area)});
+        if (emits(material) && area > 0.0f)
+            emitters.push_back({EmitterKind::kTriangle, i, material.emission, static_cast<double>(area)});
     }
-    for (const SceneEmitter& emitter : duolux::listEmitters(*scene_)) {
-        if (emitter.kind != EmitterKind::kTriangle) emitters.push_back(emitter);
-    }
+    addPointEmitters(*scene_, emitters);
     return emitters;
 }
 

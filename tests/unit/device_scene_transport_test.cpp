@@ -113,9 +113,9 @@ TEST(Transport, BrightestEmissionIsOfWhatIsThere) {
     scene.materials[1].emission.visible = {1.0f, 9.0f, 0.0f};
     scene.materials.push_back({});
     scene.materials.back().emission.invisible = glm::vec3(1e9f);  // no triangle has it
-    EXPECT_EQ(brightestEmission(scene), 9.0);
+    EXPECT_EQ(brightestEmission(scene.geometry, listEmitters(scene)), 9.0);
     scene.materials[0].emission = scene.materials[1].emission = {};
-    EXPECT_EQ(brightestEmission(scene), 0.0);
+    EXPECT_EQ(brightestEmission(scene.geometry, listEmitters(scene)), 0.0);
 }
 
 }  // namespace
