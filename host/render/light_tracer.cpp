@@ -21,10 +21,9 @@ class LightTracer {
         const RenderControl& control = context_.control;
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxPaths =
-            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : kMaxPaths;
-        LightTracerKernel kernel(context_.inputs(), maxPaths,
-                                 {control.filmBandPixels, control.noInt64Atomics});
-        if (control.maxSamplesPerLane > 0) kernel.limitLanePaths(control.maxSamplesPerLane);
+            control.limits.maxPixelsPerDispatch > 0 ? control.limits.maxPixelsPerDispatch : kMaxPaths;
+        LightTracerKernel kernel(context_.inputs(), maxPaths, control.limits);
+        if (control.limits.maxSamplesPerLane > 0) kernel.limitLanePaths(control.limits.maxSamplesPerLane);
         statistics.lanePaths = kernel.lanePaths();
         statistics.pipelineSeconds = secondsSince(pipelineStart);
         statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();

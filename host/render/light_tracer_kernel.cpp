@@ -75,7 +75,8 @@ std::vector<Specialization> lightTracerSpecialization(const RenderInputs& inputs
     return constants;
 }
 
-LightTracerKernel::LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits)
+LightTracerKernel::LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths,
+                                     const TestLimits& limits)
     : device_(&inputs.device),
       lanePaths_(duolux::lanePaths(inputs.deviceScene)),
       maxPaths_(maxPaths),

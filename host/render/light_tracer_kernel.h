@@ -7,6 +7,7 @@
 #include "host/device_scene/device_scene.h"
 #include "host/film/film.h"
 #include "host/render/kernel_setup.h"
+#include "host/render/render.h"
 #include "host/render/teams.h"
 #include "host/scene/scene.h"
 #include "host/vk/commands.h"
@@ -30,15 +31,9 @@ std::vector<Specialization> lightTracerSpecialization(const RenderInputs& inputs
 /// The kernel of the light tracer, specialised for a scene, with a film on the device.
 class LightTracerKernel {
   public:
-    /// For tests: overrides choices that depend on the device. The image stays bitwise identical.
-    struct Limits {
-        std::uint32_t filmBandPixels = 0;  ///< 0: as many as the device can bind
-        bool noInt64Atomics = false;
-    };
-
     /// `maxPaths`: largest number of paths in one dispatch. The device scene must outlive this object. Throws
     /// DeviceError if the device cannot hold a film of the scene's size.
-    LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const Limits& limits);
+    LightTracerKernel(const RenderInputs& inputs, std::uint32_t maxPaths, const TestLimits& limits);
 
     std::uint32_t maxPaths() const { return maxPaths_; }
     std::uint64_t deviceBytes() const;

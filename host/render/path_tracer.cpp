@@ -21,9 +21,10 @@ class PathTracer {
         const Clock::time_point pipelineStart = Clock::now();
         const RenderControl& control = context_.control;
         RenderStatistics& statistics = context_.statistics;
-        const std::uint32_t maxPixels = std::min<std::uint32_t>(
-            static_cast<std::uint32_t>(pixels_.size()),
-            control.maxPixelsPerDispatch > 0 ? control.maxPixelsPerDispatch : PathTracerKernel::kMaxPixels);
+        const std::uint32_t maxPixels = std::min<std::uint32_t>(static_cast<std::uint32_t>(pixels_.size()),
+                                                                control.limits.maxPixelsPerDispatch > 0
+                                                                    ? control.limits.maxPixelsPerDispatch
+                                                                    : PathTracerKernel::kMaxPixels);
         statistics.directLightInClosedForm = chooseClosedForm();
         PathTracerKernel kernel(context_.inputs(), pixels_, maxPixels, statistics.directLightInClosedForm);
         statistics.pipelineSeconds = secondsSince(pipelineStart);
@@ -52,13 +53,13 @@ class PathTracer {
         const RenderControl& control = context_.control;
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxSamples =
-            control.maxSamplesPerDispatch > 0
-                ? std::min(PathTracerKernel::kMaxSamples, control.maxSamplesPerDispatch)
+            control.limits.maxSamplesPerDispatch > 0
+                ? std::min(PathTracerKernel::kMaxSamples, control.limits.maxSamplesPerDispatch)
                 : PathTracerKernel::kMaxSamples;
         Schedule schedule(static_cast<std::uint32_t>(pixels_.size()), context_.range, kernel.maxPixels(),
                           maxSamples);
         if (context_.samplesResumed > 0) schedule.resume(samplesOfPixels());
-        if (control.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.maxSamplesPerLane);
+        if (control.limits.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.limits.maxSamplesPerLane);
         statistics.lanePaths = kernel.laneSamples();
         context_.begin();
         if (control.resume == nullptr) context_.film.setQuantum(chooseQuantum(kernel));

@@ -57,7 +57,8 @@ PathTracerKernel::PathTracerKernel(const RenderInputs& inputs, std::span<const s
                                    std::uint32_t maxPixels, bool closedForm)
     : laneSamples_(lanePaths(inputs.deviceScene)),
       maxPixels_(maxPixels),
-      lookPixels_(std::min(inputs.settings.width, 64u) * std::min(inputs.settings.height, 64u)),
+      lookPixels_(
+          static_cast<std::uint32_t>(gridPixels(inputs.settings.width, inputs.settings.height).size())),
       pixels_(pixels),
       layerChannels_(channelsOf(inputs.settings.layers)),
       teams_(inputs.device, inputs.deviceScene.tuning, maxPixels),

@@ -46,6 +46,15 @@ struct RenderState {
     bool filmOverflowed = false;
 };
 
+/// Limits for tests, with which the image stays bitwise identical. 0: only the renderer's own limit.
+struct TestLimits {
+    std::uint32_t maxSamplesPerDispatch = 0;  ///< of one pixel
+    std::uint32_t maxPixelsPerDispatch = 0;   ///< or light paths
+    std::uint32_t maxSamplesPerLane = 0;      ///< in one dispatch, over all pixels of a lane
+    std::uint32_t filmBandPixels = 0;         ///< in one buffer of the light tracer's film
+    bool noInt64Atomics = false;
+};
+
 struct RenderControl {
     /// The samples to trace, at least one per pixel; by default the first RenderSettings::spp.
     std::optional<SampleRange> samples;
@@ -65,12 +74,7 @@ struct RenderControl {
     /// The render stops before this many seconds have passed, but not before every pixel has one sample
     /// (light tracer: before there are as many light paths as pixels).
     std::optional<double> timeLimit;
-    /// For tests; 0: only the renderer's own limit. The image stays bitwise identical.
-    std::uint32_t maxSamplesPerDispatch = 0;  ///< of one pixel
-    std::uint32_t maxPixelsPerDispatch = 0;   ///< or light paths
-    std::uint32_t maxSamplesPerLane = 0;      ///< in one dispatch, over all pixels of a lane
-    std::uint32_t filmBandPixels = 0;         ///< in one buffer of the light tracer's film
-    bool noInt64Atomics = false;
+    TestLimits limits;
 };
 
 struct RenderStatistics {

@@ -2,6 +2,23 @@
 
 namespace duolux {
 
+CameraChoice CameraChoice::overriddenBy(const CameraChoice& other) const {
+    CameraChoice result = *this;
+    // A camera with a further part does not compile until the part is added here.
+    auto& [position0, target0, up0, vfov0, type0, height0] = result;
+    const auto& [position1, target1, up1, vfov1, type1, height1] = other;
+    const auto take = [](auto& part, const auto& overriding) {
+        if (overriding) part = overriding;
+    };
+    take(position0, position1);
+    take(target0, target1);
+    take(up0, up1);
+    take(vfov0, vfov1);
+    take(type0, type1);
+    take(height0, height1);
+    return result;
+}
+
 std::optional<CameraChoice::Contradiction> CameraChoice::contradiction() const {
     constexpr double kSmallestSine = 1e-4;
     const char* const across = "expected a vector that is not parallel to the view direction";

@@ -16,14 +16,7 @@ struct CameraChoice {
     std::optional<float> height;  ///< of an orthographic image, in scene units
 
     /// This choice with the parts of `other` taking precedence.
-    CameraChoice overriddenBy(const CameraChoice& other) const {
-        return {other.position ? other.position : position,
-                other.target ? other.target : target,
-                other.up ? other.up : up,
-                other.vfov ? other.vfov : vfov,
-                other.type ? other.type : type,
-                other.height ? other.height : height};
-    }
+    CameraChoice overriddenBy(const CameraChoice& other) const;
     bool complete() const { return position && target; }
 
     struct Contradiction {

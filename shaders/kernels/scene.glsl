@@ -33,8 +33,5 @@ ReflectanceMatrix fromDevice(DeviceReflectanceMatrix m) { return ReflectanceMatr
 ReflectanceMatrix sceneOpaque() { return fromDevice(params.opaque); }
 ReflectanceMatrix sceneTransparent() { return fromDevice(params.transparent); }
 
-// Length of a ray without an end point.
-const float kInfinity = 1e30;
-
 // Whether a ray visits the surfaces along it one by one, including coincident ones.
 const bool kOrdered = kTransparency != kTransparencyZero || kPlanes;

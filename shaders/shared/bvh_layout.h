@@ -23,6 +23,9 @@ DUOLUX_CONST uint kPairTexels = 4u;
 // Maximum depth of a wide tree in levels of nodes; also the size of the traversal's stack.
 DUOLUX_CONST uint kMaxTreeDepth = 24u;
 
+// Length of a ray without an end point.
+DUOLUX_CONST float kInfinity = 1e30f;
+
 // A leaf child holds 1 to 3 pairs.
 DUOLUX_CONST uint kMaxLeafPairs = 3u;
 

@@ -75,9 +75,9 @@ class Split : public testing::TestWithParam<Limits> {};
 TEST_P(Split, AnySplitGivesTheSameBits) {
     static const Film whole = filmOf(scene());
     RenderControl control;
-    control.maxSamplesPerDispatch = GetParam().samples;
-    control.maxPixelsPerDispatch = GetParam().pixels;
-    control.maxSamplesPerLane = GetParam().lane;
+    control.limits.maxSamplesPerDispatch = GetParam().samples;
+    control.limits.maxPixelsPerDispatch = GetParam().pixels;
+    control.limits.maxSamplesPerLane = GetParam().lane;
     EXPECT_TRUE(sameBits(whole, filmOf(scene(), control)));
     static const Film wholeByLight = filmOf(byLight(scene()));
     EXPECT_TRUE(sameBits(wholeByLight, filmOf(byLight(scene()), control)));
@@ -99,16 +99,16 @@ INSTANTIATE_TEST_SUITE_P(All, Split,
 TEST(Determinism, TheFilmOfLightPathsIsTheSameInAnyBuffers) {
     const Film whole = filmOf(byLight(scene()));
     RenderControl control;
-    control.noInt64Atomics = true;
+    control.limits.noInt64Atomics = true;
     EXPECT_TRUE(sameBits(whole, filmOf(byLight(scene()), control)));
     for (const std::uint32_t band : {246u, 100u, 31u}) {  // two, three and all eight buffers
-        control.filmBandPixels = band;
-        control.noInt64Atomics = false;
+        control.limits.filmBandPixels = band;
+        control.limits.noInt64Atomics = false;
         EXPECT_TRUE(sameBits(whole, filmOf(byLight(scene()), control))) << band;
-        control.noInt64Atomics = true;
+        control.limits.noInt64Atomics = true;
         EXPECT_TRUE(sameBits(whole, filmOf(byLight(scene()), control))) << band;
     }
-    control.filmBandPixels = 30;
+    control.limits.filmBandPixels = 30;
     EXPECT_THROW(filmOf(byLight(scene()), control), DeviceError);
 }
 
@@ -119,7 +119,7 @@ TEST(Determinism, LightPathsAreNumberedBeyond32Bits) {
     const auto film = [&](std::uint32_t first, std::uint32_t pathsPerDispatch) {
         RenderControl control;
         control.samples = SampleRange{first, first + 4};
-        control.maxPixelsPerDispatch = pathsPerDispatch;
+        control.limits.maxPixelsPerDispatch = pathsPerDispatch;
         return filmOf(far, control);
     };
     constexpr std::uint32_t kBeyond = 1u << 23;  // times 512 pixels: path 2^32
@@ -135,9 +135,9 @@ TEST(Determinism, LightPathsOfManyCrossingsAreWhole) {
     stack.settings.width = stack.settings.height = 32;
     stack.settings.spp = 24;
     RenderControl single;
-    single.maxSamplesPerLane = 1;
+    single.limits.maxSamplesPerLane = 1;
     RenderControl parts;
-    parts.maxPixelsPerDispatch = 1024;
+    parts.limits.maxPixelsPerDispatch = 1024;
     const RenderOutput reference = render(device(), stack, single);
     EXPECT_EQ(reference.statistics.dispatchesCutShort, 0u);
     EXPECT_EQ(reference.film.lightPaths(), 32u * 32u * 24u);
@@ -162,11 +162,11 @@ TEST(Determinism, PathsOfManyCrossingsAreWhole) {
     panes.settings.width = panes.settings.height = 10;
     panes.settings.spp = 9;
     RenderControl single;
-    single.maxSamplesPerDispatch = 1;
-    single.maxPixelsPerDispatch = 8;
+    single.limits.maxSamplesPerDispatch = 1;
+    single.limits.maxPixelsPerDispatch = 8;
     RenderControl
         parts;  // a pass of several dispatches, so that the first is cut short while another is in flight
-    parts.maxPixelsPerDispatch = 48;
+    parts.limits.maxPixelsPerDispatch = 48;
     const RenderOutput reference = render(device(), panes, single);
     EXPECT_EQ(reference.statistics.dispatchesCutShort, 0u);
     EXPECT_EQ(reference.film.totalSamples(), 10u * 10u * 9u);
@@ -204,7 +204,7 @@ TEST(Determinism, DispatchesAreBoundedWhereAPathMeetsManySurfaces) {
     LoadedScene stack = thickStack();
     stack.settings.spp = 20;
     RenderControl parts;  // many dispatches of a pass are in flight when the first is found to be too long
-    parts.maxPixelsPerDispatch = 128;
+    parts.limits.maxPixelsPerDispatch = 128;
     const RenderOutput output = render(device(), stack, parts);
     EXPECT_EQ(output.film.totalSamples(), 32u * 32u * 20u);
     expectShortDispatches(output.statistics);

@@ -216,8 +216,8 @@ TEST(NormalLayer, IsTheSameBitsHoweverTheWorkIsSplit) {
     const Film whole = render(device(), scene).film;
     std::vector<RenderState> states;
     RenderControl inParts;
-    inParts.maxPixelsPerDispatch = 100;
-    inParts.maxSamplesPerDispatch = 6;
+    inParts.limits.maxPixelsPerDispatch = 100;
+    inParts.limits.maxSamplesPerDispatch = 6;
     inParts.checkpointSeconds = 0.0;
     inParts.onCheckpoint = [&](const Film& film, const RenderStatistics&) {
         states.push_back({film, 0.0, 0.0, false});
@@ -241,7 +241,7 @@ TEST(NormalLayer, IsTheSameBitsHoweverTheWorkIsSplit) {
 
     const LoadedScene panes = withNormals(stackedPanesCase(100).scene, 24, 24, 9);
     RenderControl oneByOne;
-    oneByOne.maxSamplesPerLane = 1;
+    oneByOne.limits.maxSamplesPerLane = 1;
     const RenderOutput panesWhole = render(device(), panes);
     EXPECT_TRUE(sameBits(render(device(), panes, oneByOne).film, panesWhole.film));
 }

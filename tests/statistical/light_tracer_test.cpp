@@ -268,8 +268,8 @@ TEST(LightPaths, SumsOfGrowingLightAreTheSameBits) {
     for (const auto& [noInt64Atomics, pathsPerDispatch] :
          {std::pair(true, 0u), {false, 5000u}, {true, 5000u}}) {
         RenderControl control;
-        control.noInt64Atomics = noInt64Atomics;
-        control.maxPixelsPerDispatch = pathsPerDispatch;
+        control.limits.noInt64Atomics = noInt64Atomics;
+        control.limits.maxPixelsPerDispatch = pathsPerDispatch;
         EXPECT_TRUE(sameBits(filmOf(control), expected));
     }
     Film sum = fine.film;

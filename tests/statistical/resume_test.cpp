@@ -37,8 +37,8 @@ class Resume : public testing::TestWithParam<Integrator> {
     /// Small dispatches, so that there are many states.
     static RenderControl inParts() {
         RenderControl control;
-        control.maxPixelsPerDispatch = 100;
-        control.maxSamplesPerDispatch = 6;
+        control.limits.maxPixelsPerDispatch = 100;
+        control.limits.maxSamplesPerDispatch = 6;
         return control;
     }
 };
@@ -104,7 +104,7 @@ TEST_P(Resume, StoppedAnywhereLosesNothing) {
     for (int after = 1; after < 6; ++after) {
         int calls = 0;
         RenderControl control;
-        control.maxPixelsPerDispatch = 300;
+        control.limits.maxPixelsPerDispatch = 300;
         control.onProgress = [&](const RenderProgress&) { return ++calls < after; };
         const RenderOutput stopped = render(device(), panes, control);
         const RenderState state{stopped.film, 0.0, 0.0, false};
@@ -119,8 +119,8 @@ TEST_P(Resume, KeepsNoGapsWhereTheDriverCutsShort) {
     const Film whole = render(device(), panes, {}).film;
     std::vector<RenderState> states;
     RenderControl keeping;
-    keeping.maxPixelsPerDispatch = 150;
-    keeping.maxSamplesPerDispatch = 4;
+    keeping.limits.maxPixelsPerDispatch = 150;
+    keeping.limits.maxSamplesPerDispatch = 4;
     keeping.checkpointSeconds = 0.0;
     keeping.onCheckpoint = [&](const Film& film, const RenderStatistics&) {
         states.push_back({film, 0.0, 0.0, false});

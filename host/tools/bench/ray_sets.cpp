@@ -13,10 +13,9 @@ namespace duolux {
 
 namespace {
 
+using shared::kInfinity;
 using shared::TraceHit;
 using shared::TraceRay;
-
-constexpr float kInfinity = 1e30f;
 
 std::vector<TraceRay> primaryRays(const Camera& camera, std::uint32_t width, std::uint32_t height) {
     const ImagePlane plane = imagePlane(camera, width, height);

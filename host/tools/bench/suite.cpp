@@ -188,7 +188,7 @@ void SceneSuite::State::addFilms() {
     }
     if (wanted("film/light")) {
         const auto lightTracer = std::make_shared<LightTracerKernel>(
-            RenderInputs{device, deviceScene, scene, scene.settings}, 1, LightTracerKernel::Limits{});
+            RenderInputs{device, deviceScene, scene, scene.settings}, 1, TestLimits{});
         addFilm("light", pixels->size(), sizeof(Film::PixelSum), [lightTracer, film] {
             bool partly = false;
             lightTracer->takeFilm(*film, partly);

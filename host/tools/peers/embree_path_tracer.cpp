@@ -12,6 +12,7 @@
 #include "host/render/pixel_order.h"
 #include "host/scene/emitters.h"
 #include "host/scene/image_plane.h"
+#include "shaders/shared/bvh_layout.h"
 
 namespace duolux {
 
@@ -21,7 +22,6 @@ using glm::vec2;
 using glm::vec3;
 
 constexpr float kPi = 3.14159265358979f;
-constexpr float kInfinity = 1e30f;
 
 float largest(const vec3& v) {
     return std::max({v.x, v.y, v.z});
@@ -66,7 +66,7 @@ class PathTracer {
         vec3 throughput(1.0f);
         float pdf = 0.0f;
         for (std::uint32_t scatterings = 0;; ++scatterings) {
-            const EmbreeScene::Hit hit = embree_.nearest(origin, direction, kInfinity);
+            const EmbreeScene::Hit hit = embree_.nearest(origin, direction, shared::kInfinity);
             if (hit.triangle == EmbreeScene::Hit::kNone) return radiance;
             const Material& material = scene_.materials[scene_.geometry.materials[hit.triangle]];
             const glm::uvec3 corner = scene_.geometry.triangles[hit.triangle];
