@@ -22,16 +22,16 @@
 namespace duolux::test {
 namespace {
 
+LoadedScene small(LoadedScene scene) {
+    scene.settings.width = 21;
+    scene.settings.height = 15;
+    scene.settings.spp = 3;
+    scene.settings.bounces = 4;
+    return scene;
+}
+
 class RendererTest : public testing::Test {
   protected:
-    static LoadedScene small(LoadedScene scene) {
-        scene.settings.width = 21;
-        scene.settings.height = 15;
-        scene.settings.spp = 3;
-        scene.settings.bounces = 4;
-        return scene;
-    }
-
     static void expectSame(Renderer& renderer, const RenderSettings& settings, const TuningChoice& tuning,
                            const std::string& what) {
         RenderControl control;
@@ -145,11 +145,12 @@ TEST_F(RendererTest, BuildsTheTreeOnce) {
 }
 
 /// Memory for the update is refused: the next render tries again, with the tree that the host has.
-TEST_F(RendererTest, GoesOnAfterAnUpdateWithoutMemory) {
+/// A suite of its own, and so large arrays that no memory which others have freed serves them.
+TEST(RendererMemory, AnUpdateWithoutIsTriedAgain) {
     if (kAddressSanitizer) return;         // which needs more address space than any limit allows
     ::mallopt(M_MMAP_THRESHOLD, 1 << 16);  // arrays are mapped anew, so that the limit applies
     const TemporaryFolder folder;
-    writeTwoSpheres(folder.path(), 100'000);
+    writeTwoSpheres(folder.path(), 500'000);
     const LoadedScene scene = small(loadScene(folder.path() / "two_spheres.json"));
     Renderer renderer(device(), scene);
     renderer.render(scene.settings);
