@@ -28,7 +28,7 @@ TEST(IsWrong) {
     EXPECT_EQ(square(3.0), 6.0);
 }
 EOF
-"$cmake" -G Ninja -S . -B build >log 2>&1 || { cat log && fail "the project cannot be configured"; }
+"$cmake" -G Ninja -DCMAKE_UNITY_BUILD=ON -S . -B build >log 2>&1 || { cat log && fail "the project cannot be configured"; }
 "$cmake" --build build >log 2>&1 || { cat log && fail "the project cannot be built"; }
 ctest --test-dir build --output-on-failure >log 2>&1 && fail "a test that fails passes"
 cat log
