@@ -120,6 +120,26 @@ TEST(TrianglesWithEqualCornersAreNeverHit) {
     EXPECT_FALSE(shoot(triangleOf(p, p, p), origin, normalize(p - origin)).hit);
 }
 
+// The ray passes exactly through an edge that lies along one of the axes of the projection.
+TEST(AnEdgeAlongAnAxisBelongsToOneTriangle) {
+    vec3 p = vec3(-randomFloat(0.1, 2.0), 0.0, 1.0);
+    vec3 q = vec3(randomFloat(0.1, 2.0), 0.0, 1.0);
+    vec3 above = vec3(randomFloat(-2.0, 2.0), randomFloat(0.1, 2.0), 1.0);
+    vec3 below = vec3(randomFloat(-2.0, 2.0), -randomFloat(0.1, 2.0), 1.0);
+    bool turned = (randomUint() & 1u) == 0u;  // with the edge along V
+    vec3 axisU = turned ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 axisV = turned ? vec3(-1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    uint order = randomUint() % 3u;
+    Triangle first = triangleOf(p, q, above);
+    if (order == 1u) first = triangleOf(q, above, p);
+    if (order == 2u) first = triangleOf(above, p, q);
+    Triangle second = (randomUint() & 1u) == 0u ? triangleOf(q, p, below) : triangleOf(p, q, below);
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    bool hitsFirst = intersectTriangle(first, vec3(0.0), z, axisU, axisV, true).hit;
+    bool hitsSecond = intersectTriangle(second, vec3(0.0), z, axisU, axisV, true).hit;
+    EXPECT_TRUE(hitsFirst != hitsSecond);
+}
+
 // Three collinear corners: no hit if the projection is exact. If it is rounded, the ray may hit the remaining sliver,
 // but only on the line.
 TEST(TrianglesWithCornersOnALineAreNoSurface) {
