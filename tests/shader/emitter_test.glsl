@@ -1,8 +1,8 @@
 // Emission by side, densities, and what each kind of emitter returns.
 #include "shaders/lib/emitter.glsl"
 
-uvec4 emitterTexels[12];
-uvec4 fetchEmitterTexel(uint index) { return emitterTexels[min(index, 11u)]; }
+uvec4 emitterTexels[18];
+uvec4 fetchEmitterTexel(uint index) { return emitterTexels[min(index, 17u)]; }
 uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
 uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }
@@ -158,7 +158,7 @@ void store(uint index, Emitter emitter) {
 
 // Triangles with ranks beyond the emitting ones emit nothing, whichever record is read for them.
 TEST(OnlyEmittingTrianglesHaveAnEmitter) {
-    for (uint rank = 0u; rank < 2u; rank++) {
+    for (uint rank = 0u; rank < 3u; rank++) {
         Emitter triangle = triangleEmitter(kEmitterFront | kEmitterBack);
         triangle.emission.visible = vec3(float(rank) + 1.0);
         store(rank, triangle);
