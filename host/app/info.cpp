@@ -85,6 +85,22 @@ std::string describe(const float& value) {
     return fmt::format("{:g}", value);
 }
 
+std::string describe(bool value) {
+    return value ? "yes" : "no";
+}
+
+std::string describe(const Alpha& alpha) {
+    return alpha.mode == AlphaMode::kMask ? fmt::format("mask {:g} at {:g}", alpha.value, alpha.cutoff)
+                                          : fmt::format("{} {:g}", nameOf(alpha.mode), alpha.value);
+}
+
+std::string describe(const std::vector<MaterialTexture>& textures) {
+    std::string names;
+    for (const MaterialTexture& texture : textures)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", nameOf(texture.input));
+    return names.empty() ? "-" : names;
+}
+
 std::string describe(const Sides& sides) {
     return nameOf(sides);
 }
@@ -136,15 +152,29 @@ void printLights(const Scene& scene, const nlohmann::ordered_json& lamp) {
     if (!lamp.is_null()) printField("added lamp", onOneLine(lamp));
 }
 
+/// Shows the fields in which any of the materials differs from the default, and always the base colour.
 void printMaterials(const Scene& scene) {
-    const std::vector<std::size_t> triangles = trianglesOfMaterials(scene);
     std::vector<std::vector<std::string>> rows{{"material", "triangles"}};
-    forEachField(Material(), [&](const char* name, const auto&) { rows.front().emplace_back(name); });
+    std::vector<std::string> defaults;
+    forEachField(Material(), [&](const char* name, const auto& field) {
+        rows.front().emplace_back(name);
+        defaults.push_back(describe(field));
+    });
+    const std::vector<std::size_t> triangles = trianglesOfMaterials(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
         std::vector<std::string>& row =
             rows.emplace_back(std::vector{shortened(material.name), withSeparators(triangles[i])});
         forEachField(material, [&](const char*, const auto& field) { row.push_back(describe(field)); });
+    }
+    constexpr std::size_t kAlways = 3;
+    for (std::size_t column = rows.front().size(); column-- > kAlways;) {
+        const bool isDefault = std::all_of(rows.begin() + 1, rows.end(), [&](const auto& row) {
+            return row[column] == defaults[column - 2];
+        });
+        if (!isDefault) continue;
+        for (std::vector<std::string>& row : rows)
+            row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
     }
     fmt::print("\n");
     printTable(rows);

@@ -40,8 +40,23 @@ Json toJson(const float& value) {
     return number(value);
 }
 
+Json toJson(bool value) {
+    return value;
+}
+
 Json toJson(const Sides& sides) {
     return nameOf(sides);
+}
+
+Json toJson(const Alpha& alpha) {
+    return {{"mode", nameOf(alpha.mode)}, {"value", number(alpha.value)}, {"cutoff", number(alpha.cutoff)}};
+}
+
+Json toJson(const std::vector<MaterialTexture>& textures) {
+    Json entries = Json::array();
+    for (const MaterialTexture& texture : textures)
+        entries.push_back({{"input", nameOf(texture.input)}, {"image", texture.texture.image}});
+    return entries;
 }
 
 Json toJson(const Emission& emission) {

@@ -104,6 +104,11 @@ std::uint32_t JsonNode::integer(std::uint32_t low, std::uint32_t high) const {
     return static_cast<std::uint32_t>(number);
 }
 
+bool JsonNode::boolean() const {
+    if (!value_->is_boolean()) failValue("expected true or false");
+    return value_->get<bool>();
+}
+
 const std::string& JsonNode::text(std::string_view remedy) const {
     if (!value_->is_string()) failValue(remedy);
     return value_->get_ref<const std::string&>();

@@ -45,6 +45,8 @@ class JsonNode {
     double number(double low, double high, std::string_view remedy) const;
     /// A whole number in [low, high].
     std::uint32_t integer(std::uint32_t low, std::uint32_t high) const;
+    /// true or false.
+    bool boolean() const;
     const std::string& text(std::string_view remedy) const;
     /// The index of the value in a list of names.
     std::size_t choice(std::span<const std::string> names) const;

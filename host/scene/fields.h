@@ -47,7 +47,7 @@ void forEachField(Object& emitter, Visit&& visit) {
 }
 
 /// What the arrays of a Geometry hold an item for.
-enum class Per : std::uint8_t { kPosition, kTriangle, kNormal };
+enum class Per : std::uint8_t { kPosition, kTriangle, kNormal, kUv };
 
 /// An array of a Geometry.
 template <typename Item>
@@ -59,8 +59,6 @@ struct GeometryField {
     std::optional<Item> absent = std::nullopt;
     /// Items are three indices of these, or `absent`. A mirrored triangle exchanges two of them.
     std::optional<Per> indexes = std::nullopt;
-    /// Did not exist in earlier versions: while it is empty, hashes are those from before.
-    bool isLater = false;
 };
 
 inline constexpr std::tuple kGeometryFields{
@@ -71,8 +69,13 @@ inline constexpr std::tuple kGeometryFields{
     GeometryField<glm::vec3>{"normals", &Geometry::normals, Per::kNormal},
     GeometryField<glm::uvec3>{"normalIndices", &Geometry::normalIndices, Per::kTriangle,
                               glm::uvec3(Geometry::kNoNormal), Per::kNormal},
-    GeometryField<glm::vec3>{"colours", &Geometry::colours, Per::kPosition, glm::vec3(1.0f), std::nullopt,
-                             true},
+    GeometryField<glm::vec3>{"colours", &Geometry::colours, Per::kPosition, glm::vec3(1.0f)},
+    GeometryField<float>{"alphas", &Geometry::alphas, Per::kPosition, 1.0f},
+    GeometryField<glm::vec2>{"uvs", &Geometry::uvs, Per::kUv},
+    GeometryField<glm::vec2>{"secondUvs", &Geometry::secondUvs, Per::kUv, glm::vec2(0.0f)},
+    GeometryField<glm::vec4>{"tangents", &Geometry::tangents, Per::kUv, glm::vec4(0.0f)},
+    GeometryField<glm::uvec3>{"uvIndices", &Geometry::uvIndices, Per::kTriangle, glm::uvec3(Geometry::kNoUv),
+                              Per::kUv},
 };
 static_assert(sizeof(Geometry) == std::tuple_size_v<decltype(kGeometryFields)> * sizeof(std::vector<float>),
               "a field of Geometry is missing in the list");
@@ -90,12 +93,13 @@ void forEachField(Object& geometry, Visit&& visit) {
 }
 
 struct GeometryCounts {
-    std::size_t positions, triangles, normals;
+    std::size_t positions, triangles, normals, uvs;
 
     explicit GeometryCounts(const Geometry& geometry)
         : positions(geometry.positions.size()),
           triangles(geometry.triangles.size()),
-          normals(geometry.normals.size()) {}
+          normals(geometry.normals.size()),
+          uvs(geometry.uvs.size()) {}
 
     std::size_t of(Per per) const {
         switch (per) {
@@ -105,6 +109,8 @@ struct GeometryCounts {
                 return triangles;
             case Per::kNormal:
                 return normals;
+            case Per::kUv:
+                return uvs;
         }
         return 0;
     }

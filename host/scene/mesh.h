@@ -16,7 +16,8 @@ struct Mesh {
     std::vector<std::filesystem::path> files;  ///< all files read: the mesh and its MTL files
     Geometry geometry;                         ///< positions are relative to `origin`
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
-    std::vector<Material> materials;           ///< used by faces
+    std::vector<Material> materials;  ///< used by faces; Texture::image is an index into `images`
+    std::vector<ImageSource> images;
     std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face uses
     std::vector<std::string> warnings;
     std::uint64_t bytes = 0;  ///< size of the file

@@ -16,6 +16,74 @@ const char* nameOf(Sides sides) {
     return "";
 }
 
+const char* nameOf(AlphaMode mode) {
+    switch (mode) {
+        case AlphaMode::kOpaque:
+            return "opaque";
+        case AlphaMode::kMask:
+            return "mask";
+        case AlphaMode::kBlend:
+            return "blend";
+    }
+    return "";
+}
+
+const char* nameOf(MaterialInput input) {
+    switch (input) {
+        case MaterialInput::kBaseColor:
+            return "base_color";
+        case MaterialInput::kAlpha:
+            return "alpha";
+        case MaterialInput::kMetallic:
+            return "metallic";
+        case MaterialInput::kRoughness:
+            return "roughness";
+        case MaterialInput::kSpecular:
+            return "specular";
+        case MaterialInput::kSpecularColor:
+            return "specular_color";
+        case MaterialInput::kTransmission:
+            return "transmission";
+        case MaterialInput::kClearcoat:
+            return "clearcoat";
+        case MaterialInput::kClearcoatRoughness:
+            return "clearcoat_roughness";
+        case MaterialInput::kSheenColor:
+            return "sheen_color";
+        case MaterialInput::kSheenRoughness:
+            return "sheen_roughness";
+        case MaterialInput::kAnisotropy:
+            return "anisotropy";
+        case MaterialInput::kNormal:
+            return "normal";
+        case MaterialInput::kEmission:
+            return "emission";
+    }
+    return "";
+}
+
+const char* nameOf(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::kRepeat:
+            return "repeat";
+        case Wrap::kClamp:
+            return "clamp";
+        case Wrap::kMirror:
+            return "mirror";
+    }
+    return "";
+}
+
+const char* nameOf(Filter filter) {
+    switch (filter) {
+        case Filter::kLinear:
+            return "linear";
+        case Filter::kNearest:
+            return "nearest";
+    }
+    return "";
+}
+
 const char* nameOf(CameraType type) {
     switch (type) {
         case CameraType::kPerspective:
@@ -67,7 +135,8 @@ void removeLamp(Scene& scene) {
             case Per::kTriangle:
                 if (!items.empty()) items.resize(scene.content.triangles);
                 break;
-            case Per::kNormal:  // a lamp has none
+            case Per::kNormal:  // a lamp has neither
+            case Per::kUv:
                 break;
         }
     });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,18 @@ struct Geometry {
         normalIndices;  ///< per triangle; kNoNormal in .x: flat. Empty if normals is empty
 
     std::vector<glm::vec3>
-        colours;  ///< per position: scale the base colour, linear RGB from 0 to 1; may be empty
+        colours;                ///< per position: scale the base colour, linear RGB from 0 to 1; may be empty
+    std::vector<float> alphas;  ///< per position: scale alpha, 0 to 1; may be empty
+    std::vector<glm::vec2>
+        uvs;  ///< texture coordinates (host/scene/texture.h); empty if no triangle has them
+    std::vector<glm::vec2> secondUvs;  ///< the second set; as many as uvs, or empty
+    /// As many as uvs, or empty: unit tangent towards growing u, and the sign of the bitangent towards
+    /// smaller v, cross(normal, tangent) * w (as in glTF). 0: not known.
+    std::vector<glm::vec4> tangents;
+    std::vector<glm::uvec3> uvIndices;  ///< per triangle; kNoUv in .x: none. Empty if uvs is empty
 
     static constexpr std::uint32_t kNoNormal = 0xffffffffu;
+    static constexpr std::uint32_t kNoUv = 0xffffffffu;
 };
 
 enum class CameraType : std::uint8_t {
@@ -92,6 +102,7 @@ struct Scene {
     std::vector<Material> materials;
     Geometry geometry;
     std::vector<PointEmitter> pointEmitters;
+    std::vector<std::shared_ptr<const Image>> images;  ///< not null
     /// Is subtracted from the file's coordinates, so that `camera` and `geometry` keep their precision as
     /// floats; 0 unless the scene is far from the origin for its extent.
     glm::dvec3 origin{0.0};
@@ -108,6 +119,7 @@ struct Scene {
 /// A scene as its files describe it, with what else they say and what their readers noticed.
 struct LoadedScene : Scene {
     RenderSettings settings;
+    std::vector<ImageSource> imageSources;     ///< of `images`
     std::vector<Warning> warnings;             ///< lamp added, missing MTL, degenerate triangles ...
     std::vector<std::filesystem::path> files;  ///< all that were read
     std::uint64_t meshBytes = 0;               ///< size of those that hold meshes

@@ -34,6 +34,10 @@ bool isFinite(const glm::vec3& v) {
     return isWithin(v, -kAnything, kAnything);
 }
 
+bool isFraction(float value) {
+    return value >= 0.0f && value <= 1.0f;
+}
+
 class Validator {
   public:
     explicit Validator(const Scene& scene) : scene_(scene) {}
@@ -47,11 +51,12 @@ class Validator {
         forEachField(geometry, [&](const auto& field, const auto& items) { checkArray(field, items); });
         checkItems("colours", geometry.colours, "expected numbers from 0 to 1",
                    [](const glm::vec3& colour) { return isWithin(colour, 0.0f, 1.0f); });
+        checkItems("alphas", geometry.alphas, "expected numbers from 0 to 1", isFraction);
     }
 
     void checkRest() const {
         // All fields by name: a further one does not compile until it is handled here.
-        const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, origin,
+        const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, images, origin,
                      content] = scene_;
         static_cast<void>(std::tie(source, geometry));
         checkCamera(camera);
@@ -61,6 +66,8 @@ class Validator {
         check(reflectance, "reflectance");
         for (std::size_t i = 0; i < materials.size(); ++i)
             check(materials[i], fmt::format("materials[{}]", i));
+        for (std::size_t i = 0; i < images.size(); ++i)
+            check(*images[i], fmt::format("images[{}]", i));
         for (std::size_t i = 0; i < pointEmitters.size(); ++i)
             check(pointEmitters[i], fmt::format("pointEmitters[{}]", i));
         if (content.positions > geometry.positions.size() || content.triangles > geometry.triangles.size() ||
@@ -98,9 +105,16 @@ class Validator {
         check(field, items, indexed);
     }
 
-    void check(const GeometryField<glm::vec3>& field, const std::vector<glm::vec3>& items,
+    template <glm::length_t N>
+    void check(const GeometryField<glm::vec<N, float>>& field, const std::vector<glm::vec<N, float>>& items,
                std::size_t) const {
-        checkItems(field.name, items, "expected finite numbers", isFinite);
+        checkItems(field.name, items, "expected finite numbers",
+                   [](const glm::vec<N, float>& item) { return isWithin(item, -kAnything, kAnything); });
+    }
+
+    void check(const GeometryField<float>& field, const std::vector<float>& items, std::size_t) const {
+        checkItems(field.name, items, "expected finite numbers",
+                   [](float item) { return isWithin(glm::vec1(item), -kAnything, kAnything); });
     }
 
     void check(const GeometryField<glm::uvec3>& field, const std::vector<glm::uvec3>& items,
@@ -132,19 +146,73 @@ class Validator {
     }
 
     void check(const Material& material, const std::string& place) const {
-        const auto& [name, baseColor, metallic, roughness, sides, emission, reflectance] = material;
-        static_cast<void>(std::tie(name, sides));
-        // OBJ files may have colours above 1, about which their loader warns.
-        expect(isWithin(baseColor, 0.0f, kAnything), place + ".baseColor", "expected finite numbers from 0");
-        expect(metallic >= 0.0f && metallic <= 1.0f, place + ".metallic", "expected 0 to 1");
-        expect(roughness >= 0.0f && roughness <= 1.0f, place + ".roughness", "expected 0 to 1");
-        const auto& [invisible, visible, emittingSides] = emission;
-        static_cast<void>(emittingSides);
+        forEachField(material, [&](const char* name, const auto& field) {
+            checkField(fmt::format("{}.{}", place, name), field);
+        });
+        const auto fraction = [&](const char* name, float value) {
+            expect(isFraction(value), fmt::format("{}.{}", place, name), "expected 0 to 1");
+        };
+        fraction("metallic", material.metallic);
+        fraction("roughness", material.roughness);
+        fraction("specular", material.specular);
+        fraction("transmission", material.transmission);
+        fraction("clearcoat", material.clearcoat);
+        fraction("clearcoat_roughness", material.clearcoatRoughness);
+        fraction("sheen_roughness", material.sheenRoughness);
+        fraction("anisotropy", material.anisotropy);
+        fraction("alpha", material.alpha.value);
+        expect(material.ior >= 1.0f && material.ior <= Material::kLargestIor, place + ".ior",
+               fmt::format("expected 1 to {}", Material::kLargestIor));
+        expect(material.attenuationDistance > 0.0f, place + ".attenuation_distance",
+               "expected a number above 0");
+    }
+
+    // The ranges of all fields of a type; single fields have narrower ones.
+    void checkField(const std::string& place, float value) const {
+        expect(!std::isnan(value), place, "expected a number");
+    }
+    // OBJ files may have colours above 1, about which their loader warns.
+    void checkField(const std::string& place, const glm::vec3& colour) const {
+        expect(isWithin(colour, 0.0f, kAnything), place, "expected finite numbers from 0");
+    }
+    void checkField(const std::string&, bool) const {}
+    void checkField(const std::string& place, const Alpha& alpha) const {
+        expect(alpha.cutoff >= 0.0f, place, "expected a cutoff of 0 or more");
+    }
+    void checkField(const std::string&, Sides) const {}
+    void checkField(const std::string& place, const Emission& emission) const {
+        const auto& [invisible, visible, sides] = emission;
+        static_cast<void>(sides);
         for (const glm::vec3& radiance : {invisible, visible}) {
-            expect(isWithin(radiance, 0.0f, kAnything), place + ".emission",
-                   "expected finite numbers from 0");
+            expect(isWithin(radiance, 0.0f, kAnything), place, "expected finite numbers from 0");
         }
-        if (reflectance) check(*reflectance, place + ".reflectance");
+    }
+    void checkField(const std::string& place, const std::optional<Reflectance>& reflectance) const {
+        if (reflectance) check(*reflectance, place);
+    }
+    void checkField(const std::string& place, const std::vector<MaterialTexture>& textures) const {
+        for (std::size_t i = 0; i < textures.size(); ++i) {
+            const auto& [input, texture, channel] = textures[i];
+            expect(i == 0 || textures[i - 1].input < input, place,
+                   "expected one texture per input, ascending");
+            expect(channel < 4, place, "expected channels below 4");
+            expect(texture.image < scene_.images.size(), place,
+                   fmt::format("expected image indices below {}", scene_.images.size()));
+            expect(texture.uvSet < 2, place, "expected UV set 0 or 1");
+            const auto& [scale, offset, rotation] = texture.transform;
+            for (const float value : {scale.x, scale.y, offset.x, offset.y, rotation})
+                expect(std::isfinite(value), place, "expected finite transforms");
+        }
+    }
+
+    void check(const Image& image, const std::string& place) const {
+        const std::size_t values = std::size_t{4} * image.width * image.height;
+        expect(values > 0 && image.bytes.size() + image.floats.size() == values &&
+                   (image.bytes.empty() || image.floats.empty()),
+               place, "expected four values per pixel");
+        expect(
+            std::all_of(image.floats.begin(), image.floats.end(), [](float v) { return std::isfinite(v); }),
+            place, "expected finite values");
     }
 
     void check(const PointEmitter& emitter, const std::string& place) const {

@@ -6,12 +6,23 @@
 
 DUOLUX_BEGIN
 
-DUOLUX_CONST uint kMaterialTexels = 10u;  // of 4 x uint32
-// The first of the texels that hold a matrix.
-DUOLUX_CONST uint kMaterialOpaqueTexel = 2u;
-DUOLUX_CONST uint kMaterialTransparentTexel = 6u;
+DUOLUX_CONST uint kMaterialTexels = 15u;  // of 4 x uint32
+// The texels of a DeviceMaterial, by their first field.
+DUOLUX_CONST uint kMaterialBaseColorTexel = 0u;
+DUOLUX_CONST uint kMaterialMetallicTexel = 1u;
+DUOLUX_CONST uint kMaterialSpecularTexel = 2u;
+DUOLUX_CONST uint kMaterialTransmissionTexel = 3u;
+DUOLUX_CONST uint kMaterialSheenTexel = 4u;
+DUOLUX_CONST uint kMaterialAttenuationTexel = 5u;
+DUOLUX_CONST uint kMaterialAlphaTexel = 6u;
+DUOLUX_CONST uint kMaterialOpaqueTexel = 7u;  // four
+DUOLUX_CONST uint kMaterialTransparentTexel = 11u;
 
-DUOLUX_CONST uint kMaterialTwoSided = 1u;  // f_opaque acts on both sides
+// DeviceMaterial.flags.
+DUOLUX_CONST uint kMaterialTwoSided = 1u;    // f_opaque acts on both sides
+DUOLUX_CONST uint kMaterialThin = 2u;        // refraction through a wall without thickness
+DUOLUX_CONST uint kMaterialAlphaMask = 4u;   // alpha is 0 below the cutoff, else 1
+DUOLUX_CONST uint kMaterialAlphaBlend = 8u;  // without either of the two, alpha is 1
 
 // Lobes.
 DUOLUX_CONST uint kLobeDiffuse = 1u;
@@ -27,11 +38,32 @@ struct DeviceMaterial {
     uint flags;
     float metallic;
     float roughness;
-    float unused[2];
+    float anisotropy;
+    float anisotropyRotation;  // radians, counter-clockwise from the tangent
+    vec3 specularColor;
+    float specular;
+    float transmission;
+    float ior;
+    float clearcoat;
+    float clearcoatRoughness;
+    vec3 sheenColor;
+    float sheenRoughness;
+    vec3 attenuation;  // per scene unit inside the object
+    float normalScale;
+    float alpha;
+    float alphaCutoff;
+    uint firstTexture;  // DeviceTexture
+    uint textureCount;
     vec4 opaque[4];  // m00 m01 m10 m11 in xyz
     vec4 transparent[4];
 };
 static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16);
+static_assert(offsetof(DeviceMaterial, metallic) == kMaterialMetallicTexel * 16);
+static_assert(offsetof(DeviceMaterial, specularColor) == kMaterialSpecularTexel * 16);
+static_assert(offsetof(DeviceMaterial, transmission) == kMaterialTransmissionTexel * 16);
+static_assert(offsetof(DeviceMaterial, sheenColor) == kMaterialSheenTexel * 16);
+static_assert(offsetof(DeviceMaterial, attenuation) == kMaterialAttenuationTexel * 16);
+static_assert(offsetof(DeviceMaterial, alpha) == kMaterialAlphaTexel * 16);
 static_assert(offsetof(DeviceMaterial, opaque) == kMaterialOpaqueTexel * 16);
 static_assert(offsetof(DeviceMaterial, transparent) == kMaterialTransparentTexel * 16);
 #endif
