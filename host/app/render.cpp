@@ -98,7 +98,7 @@ void RenderCommand::load() {
     requireNoOtherFile(options_.checkpoint);
     overrides.applyTo(scene_.settings, options_);
     requireUseOfLayers(options_, images_, scene_.settings);
-    if (scene_.settings.integrator == Integrator::kLightTracer) warnOfMirrors(scene_);
+    if (scene_.settings.integrator == Integrator::kLightTracer) warnOfSmoothSurfaces(scene_);
     for (const Warning& warning : scene_.warnings)
         warn(warning.text);
     if (!options_.resume.empty()) resumed_ = readCheckpoint(options_.resume);

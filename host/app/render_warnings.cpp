@@ -54,13 +54,13 @@ std::vector<std::string> resultWarnings(const RenderSettings& settings, SampleRa
     return warnings;
 }
 
-void warnOfMirrors(LoadedScene& scene) {
+void warnOfSmoothSurfaces(LoadedScene& scene) {
     const std::vector<bool> used = usedMaterials(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (!used[i] || !isMirror(scene.materials[i])) continue;
+        if (!used[i] || !isSpecular(scene.materials[i])) continue;
         scene.warnings.emplace_back(fmt::format(
-            "{}: material {}: light paths do not show what a mirror reflects; expected a roughness of at "
-            "least {:.3f}, or --integrator path",
+            "{}: material {}: light paths do not show what a smooth surface reflects or refracts; expected a "
+            "roughness of at least {:.3f}, or --integrator path",
             scene.source.string(), inQuotes(scene.materials[i].name), std::sqrt(shared::kSmoothAlpha)));
         return;
     }

@@ -16,6 +16,6 @@ std::vector<std::string> resultWarnings(const RenderSettings& settings, SampleRa
                                         const RenderOutput& output, bool failed, bool interrupted);
 
 /// Adds a warning to the scene's if a light tracer would not show what some surface reflects.
-void warnOfMirrors(LoadedScene& scene);
+void warnOfSmoothSurfaces(LoadedScene& scene);
 
 }  // namespace duolux

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "host/albedo/albedo_tables.h"
 #include "host/base/clock.h"
 #include "host/base/error.h"
 #include "host/device_scene/emitter_table.h"
@@ -106,6 +107,7 @@ SceneBuffers uploadRecords(const Device& device, Layout layout, const SceneRecor
         .planes = Buffer::upload(device, Use::kTexels, records.planes, "planes"),
         .materials = Buffer::upload(device, Use::kTexels, records.materials, "materials"),
         .emitters = Buffer::upload(device, Use::kTexels, records.emitters, "emitters"),
+        .albedo = Buffer::upload(device, Use::kTexels, albedoTables(), "albedo tables"),
     };
 }
 

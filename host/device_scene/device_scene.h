@@ -23,12 +23,13 @@ inline constexpr std::size_t kMostClosedFormEmitters = 16;
 struct SceneBuffers {
     Buffer nodes;  ///< empty with Layout::kRayQuery
     Buffer triangles, normals, colours, planes, materials, emitters;
+    Buffer albedo;  ///< the tables of shaders/shared/albedo_layout.h
 };
 
 /// Calls visit(binding, buffer) for every buffer: a further one does not compile until it is handled here.
 template <typename Visit>
 void forEachBuffer(const SceneBuffers& buffers, Visit&& visit) {
-    const auto& [nodes, triangles, normals, colours, planes, materials, emitters] = buffers;
+    const auto& [nodes, triangles, normals, colours, planes, materials, emitters, albedo] = buffers;
     visit(shared::kBindingNodes, nodes);
     visit(shared::kBindingTriangles, triangles);
     visit(shared::kBindingNormals, normals);
@@ -36,6 +37,7 @@ void forEachBuffer(const SceneBuffers& buffers, Visit&& visit) {
     visit(shared::kBindingPlanes, planes);
     visit(shared::kBindingMaterials, materials);
     visit(shared::kBindingEmitters, emitters);
+    visit(shared::kBindingAlbedo, albedo);
 }
 
 /// What follows from materials, reflectances and emitters.

@@ -26,8 +26,33 @@ struct Pattern {
 
 }  // namespace
 
-bool isMirror(const Material& material) {
-    return material.metallic > 0.0f && material.roughness * material.roughness < shared::kSmoothAlpha;
+std::uint32_t lobesOf(const Material& material) {
+    const auto isTextured = [&](MaterialInput input) {
+        return std::any_of(material.textures.begin(), material.textures.end(),
+                           [&](const MaterialTexture& texture) { return texture.input == input; });
+    };
+    // An image can only make a number smaller.
+    const bool allMetal = material.metallic >= 1.0f && !isTextured(MaterialInput::kMetallic);
+    const bool allGlass = material.transmission >= 1.0f && !isTextured(MaterialInput::kTransmission);
+    std::uint32_t lobes = 0;
+    if (material.metallic > 0.0f) lobes |= shared::kLobeMetal;
+    if (!allMetal) {
+        if (material.transmission > 0.0f) lobes |= shared::kLobeGlass;
+        if (!allGlass) lobes |= shared::kLobeDiffuse;
+        if (!allGlass && material.specular > 0.0f) lobes |= shared::kLobeDielectric;
+    }
+    if (material.clearcoat > 0.0f) lobes |= shared::kLobeClearcoat;
+    if (material.sheenColor != glm::vec3(0.0f)) lobes |= shared::kLobeSheen;
+    if (material.anisotropy > 0.0f && (lobes & ~shared::kLobeDiffuse) != 0) lobes |= shared::kLobeAnisotropic;
+    return lobes;
+}
+
+bool isSpecular(const Material& material) {
+    const std::uint32_t lobes = lobesOf(material);
+    const auto isSmooth = [](float roughness) { return roughness * roughness < shared::kSmoothAlpha; };
+    const std::uint32_t facets = shared::kLobeMetal | shared::kLobeDielectric | shared::kLobeGlass;
+    return ((lobes & facets) != 0 && isSmooth(material.roughness)) ||
+           ((lobes & shared::kLobeClearcoat) != 0 && isSmooth(material.clearcoatRoughness));
 }
 
 TransportTraits analyseTransport(const Scene& scene) {
@@ -42,8 +67,7 @@ TransportTraits analyseTransport(const Scene& scene) {
         const Reflectance& reflectance = scene.reflectanceOf(scene.materials[i]);
         if (first == nullptr) first = &reflectance;
         traits.oneReflectance = traits.oneReflectance && reflectance == *first;
-        if (scene.materials[i].metallic < 1.0f) traits.lobes |= shared::kLobeDiffuse;
-        if (scene.materials[i].metallic > 0.0f) traits.lobes |= shared::kLobeConductor;
+        traits.lobes |= lobesOf(scene.materials[i]);
         opaque.add(reflectance.opaque);
         transparent.add(reflectance.transparent);
         identity = identity && reflectance.transparent.m00 == glm::vec3(1.0f);

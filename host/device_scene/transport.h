@@ -34,9 +34,12 @@ struct TransportTraits {
 /// Materials that no triangle refers to do not count.
 TransportTraits analyseTransport(const Scene& scene);
 
-/// Whether a part of the surface reflects each direction into one other. The light tracer cannot connect
-/// mirrors to the camera.
-bool isMirror(const Material& material);
+/// Sum of shared::kLobe...
+std::uint32_t lobesOf(const Material& material);
+
+/// Whether a part of the surface is smooth: it reflects (or refracts) each direction into one other. The
+/// light tracer cannot connect it to the camera.
+bool isSpecular(const Material& material);
 
 /// The largest emitted radiance over all emitters of a scene with this geometry, channels and components; of
 /// point emitters the irradiance at a distance of the scene's extent. 0 if nothing emits.

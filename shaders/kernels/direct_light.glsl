@@ -33,9 +33,9 @@ void connectToEmitter(inout Shadow shadow, inout SampleRadiance received, Surfac
                       vec3 wo, uvec2 words, uint scatterings) {
     EmitterSample sampled = sampleEmitter(params.emitterCount, hit.point.position, words);
     BsdfFrame frame = frameOf(hit.point);
-    vec3 f = bsdfEvaluate(hit.material.bsdf, frame, wo, sampled.wi, kModeRadiance);
+    vec3 f = bsdfEvaluate(hit.bsdf, frame, wo, sampled.wi, kModeRadiance);
     // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf. No other strategy finds a delta.
-    float otherPdf = sampled.delta ? 0.0 : bsdfPdf(hit.material.bsdf, frame, wo, sampled.wi, kModeRadiance);
+    float otherPdf = sampled.delta ? 0.0 : bsdfPdf(hit.bsdf, frame, wo, sampled.wi, kModeRadiance);
     float weight = 1.0 / (sampled.pdf + otherPdf);
     ReflectanceMatrix reflected = scaled(importance, f * (bsdfCosine(frame, sampled.wi, kModeRadiance) * weight));
     Radiance2 contribution = matrixApply(reflected, sampled.emission);
@@ -65,7 +65,7 @@ void connectToEmitter(inout Shadow shadow, inout SampleRadiance received, Surfac
 // Light from all emitters on a diffuse vertex.
 void addClosedForm(inout SampleRadiance received, SurfaceHit hit, ReflectanceMatrix importance, uint scatterings) {
     Radiance2 total = irradianceFromEmitters(params.emitterCount, hit.point.position, hit.point.shadingNormal);
-    ReflectanceMatrix reflected = scaled(importance, diffuseEvaluate(hit.material.bsdf));
+    ReflectanceMatrix reflected = scaled(importance, diffuseEvaluate(hit.bsdf));
     addRadiance(received, matrixApply(reflected, total), scatterings);
 }
 

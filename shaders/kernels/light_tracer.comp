@@ -101,13 +101,13 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     float adjoint = materialScatters(hit.material, hit.front) ? shadingAdjoint(hit.point, toEmitter) : 0.0;
     Radiance2 scattered = scaled(matrixApply(opaqueOf(hit.materialIndex), path.flux), vec3(adjoint));
     BsdfFrame frame = frameOf(hit.point);
-    vec3 f = bsdfEvaluate(hit.material.bsdf, frame, toEmitter, directionToCamera(hit.point.position), kModeImportance);
+    vec3 f = bsdfEvaluate(hit.bsdf, frame, toEmitter, directionToCamera(hit.point.position), kModeImportance);
     outgoing = Outgoing(hit.point, scaled(scattered, f), path.scatterings + 1u);
 
-    float weight = carried(scaled(scattered, bsdfAlbedo(hit.material.bsdf, frame, toEmitter)));
+    float weight = carried(scaled(scattered, bsdfAlbedo(hit.bsdf, frame, toEmitter)));
     if (weight > 0.0) {
         float u = crossingChoice(path.stream, path.scatterings, path.crossings);
-        if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
+        if (offerVertex(vertex, hit.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }
 
     if (kTransparency == kTransparencyZero) return false;

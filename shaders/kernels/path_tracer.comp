@@ -57,7 +57,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     if (kEmittingTriangles) collectEmission(received, path, hit, w, ray.t, tri.primitive);
 
     ReflectanceMatrix scattered = multiply(w, opaqueOf(hit.materialIndex));
-    vec3 albedo = bsdfAlbedo(hit.material.bsdf, frameOf(hit.point), wo);
+    vec3 albedo = bsdfAlbedo(hit.bsdf, frameOf(hit.point), wo);
     float weight = matrixWeight(scaled(scattered, albedo), params.rowWeight);
     if (path.scatterings < params.bounces && materialScatters(hit.material, hit.front) && weight > 0.0) {
         if (kDirectLight == kDirectLightClosedForm) addClosedForm(received, hit, scattered, path.scatterings + 1u);
@@ -67,7 +67,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
         }
         float u = 0.0;
         if (kPathsContinue) u = crossingChoice(path.stream, path.scatterings, path.crossings);
-        if (offerVertex(vertex, hit.material.bsdf, hit.point, weight, u)) path.scattered = scattered;
+        if (offerVertex(vertex, hit.bsdf, hit.point, weight, u)) path.scattered = scattered;
     }
 
     bool passes = false;

@@ -12,6 +12,7 @@ layout(binding = kBindingMaterials, rgba32ui) uniform readonly uimageBuffer mate
 layout(binding = kBindingEmitters, rgba32ui) uniform readonly uimageBuffer emitterTexels;
 layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
 layout(binding = kBindingColours, rgba32ui) uniform readonly uimageBuffer colourTexels;
+layout(binding = kBindingAlbedo, rgba32ui) uniform readonly uimageBuffer albedoTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 
@@ -28,6 +29,7 @@ uvec4 fetchMaterialTexel(uint index) { return imageLoad(materialTexels, int(inde
 uvec4 fetchEmitterTexel(uint index) { return imageLoad(emitterTexels, int(index)); }
 uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
 uvec4 fetchColourTexel(uint index) { return imageLoad(colourTexels, int(index)); }
+uvec4 fetchAlbedoTexel(uint index) { return imageLoad(albedoTexels, int(index)); }
 
 ReflectanceMatrix fromDevice(DeviceReflectanceMatrix m) { return ReflectanceMatrix(m.m00, m.m01, m.m10, m.m11); }
 ReflectanceMatrix sceneOpaque() { return fromDevice(params.opaque); }

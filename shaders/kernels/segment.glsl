@@ -6,6 +6,7 @@
 struct SurfaceHit {
     uint materialIndex;
     Material material;
+    Bsdf bsdf;
     SurfacePoint point;
     bool front;    // the ray arrives at the triangle's front
     float cosine;  // between the ray and the normal of the front
@@ -15,11 +16,12 @@ struct SurfaceHit {
 SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle tri) {
     SurfaceHit hit;
     hit.materialIndex = tri.materialFlags & kMaterialMask;
-    hit.material = fetchMaterial(hit.materialIndex);
-    if (kVertexColours) hit.material.bsdf.baseColor *= vertexColour(ray.triangle, ray.barycentric);
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
     hit.cosine = dot(normal, segment.direction);
     hit.front = hit.cosine < 0.0;
+    hit.material = fetchMaterial(hit.materialIndex);
+    if (kVertexColours) hit.material.baseColor *= vertexColour(ray.triangle, ray.barycentric);
+    hit.bsdf = bsdfOf(hit.material, hit.front);
     bool behindOthers = kPlanes && crossings > 0u && segment.t == ray.t;
     hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
     hit.point = placedByPlane(hit.point, segment.origin + segment.direction * ray.t, behindOthers);
@@ -59,7 +61,7 @@ bool survives(uvec2 stream, uint scatterings, uint crossings, float weight, out 
 
 // Without smooth normals a vertex need not keep both normals.
 BsdfFrame frameOf(SurfacePoint point) {
-    return BsdfFrame(kSmoothNormals ? point.shadingNormal : point.geometricNormal, point.geometricNormal);
+    return BsdfFrame(kSmoothNormals ? point.shadingNormal : point.geometricNormal, point.geometricNormal, vec3(0.0));
 }
 
 // A ray that leaves a point at which the BSDF scatters.

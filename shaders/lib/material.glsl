@@ -8,15 +8,67 @@
 
 uvec4 fetchMaterialTexel(uint index);
 
+// Field by field as in DeviceMaterial.
 struct Material {
-    Bsdf bsdf;
+    vec3 baseColor;
     uint flags;
+    float metallic;
+    float roughness;
+    float anisotropy;
+    float anisotropyRotation;
+    vec3 specularColor;
+    float specular;
+    float transmission;
+    float ior;
+    float clearcoat;
+    float clearcoatRoughness;
+    vec3 sheenColor;
+    float sheenRoughness;
+    vec3 attenuation;
+    float normalScale;
+    float alpha;
+    float alphaCutoff;
+    uint firstTexture;
+    uint textureCount;
 };
 
+// What no lobe of the scene uses, the compiler does not fetch.
 Material fetchMaterial(uint index) {
-    uvec4 t0 = fetchMaterialTexel(index * kMaterialTexels);
-    uvec4 t1 = fetchMaterialTexel(index * kMaterialTexels + 1u);
-    return Material(Bsdf(uintBitsToFloat(t0.xyz), uintBitsToFloat(t1.x), uintBitsToFloat(t1.y)), t0.w);
+    uint texel = index * kMaterialTexels;
+    uvec4 color = fetchMaterialTexel(texel + kMaterialBaseColorTexel);
+    vec4 metallic = uintBitsToFloat(fetchMaterialTexel(texel + kMaterialMetallicTexel));
+    vec4 specular = uintBitsToFloat(fetchMaterialTexel(texel + kMaterialSpecularTexel));
+    vec4 transmission = uintBitsToFloat(fetchMaterialTexel(texel + kMaterialTransmissionTexel));
+    vec4 sheen = uintBitsToFloat(fetchMaterialTexel(texel + kMaterialSheenTexel));
+    vec4 attenuation = uintBitsToFloat(fetchMaterialTexel(texel + kMaterialAttenuationTexel));
+    uvec4 alpha = fetchMaterialTexel(texel + kMaterialAlphaTexel);
+    return Material(uintBitsToFloat(color.xyz), color.w, metallic.x, metallic.y, metallic.z, metallic.w, specular.xyz,
+                    specular.w, transmission.x, transmission.y, transmission.z, transmission.w, sheen.xyz, sheen.w,
+                    attenuation.xyz, attenuation.w, uintBitsToFloat(alpha.x), uintBitsToFloat(alpha.y), alpha.z, alpha.w);
+}
+
+// `front`: the surface is seen from its front.
+Bsdf bsdfOf(Material material, bool front) {
+    float root = (material.ior - 1.0) / (material.ior + 1.0);
+    float alpha = material.roughness * material.roughness;
+    bool thin = (material.flags & kMaterialThin) != 0u;
+    Bsdf bsdf;
+    bsdf.baseColor = material.baseColor;
+    bsdf.metallic = material.metallic;
+    bsdf.roughness = material.roughness;
+    // KHR_materials_specular.
+    bsdf.f0 = min(material.specularColor * (root * root), vec3(1.0)) * material.specular;
+    bsdf.specular = material.specular;
+    bsdf.transmission = material.transmission;
+    bsdf.eta = thin || front ? material.ior : 1.0 / material.ior;
+        bsdf.flags = (thin ? kBsdfThin : 0u) | (front ? kBsdfOutside : 0u);
+    bsdf.clearcoat = material.clearcoat;
+    bsdf.clearcoatRoughness = material.clearcoatRoughness;
+    bsdf.sheenColor = material.sheenColor;
+    bsdf.sheenRoughness = material.sheenRoughness;
+    // KHR_materials_anisotropy.
+    bsdf.alpha = vec2(kAnisotropic ? mix(alpha, 1.0, material.anisotropy * material.anisotropy) : alpha, alpha);
+    return bsdf;
 }
 
 ReflectanceMatrix fetchMatrix(uint texel) {

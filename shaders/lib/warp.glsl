@@ -14,6 +14,13 @@ vec3 cosineHemisphere(vec2 u) {
     return vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
 }
 
+// Uniform direction on the hemisphere around +z.
+vec3 uniformHemisphere(vec2 u) {
+    float r = sqrt(max(1.0 - u.x * u.x, 0.0));
+    float phi = azimuth(u.y);
+    return vec3(r * cos(phi), r * sin(phi), u.x);
+}
+
 // Uniform direction on the sphere.
 vec3 uniformSphere(vec2 u) {
     float z = 1.0 - 2.0 * u.x;

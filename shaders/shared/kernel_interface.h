@@ -22,6 +22,7 @@ DUOLUX_CONST uint kBindingLayers = 11u;    // storage: sums of the film's option
 DUOLUX_CONST uint kBindingColours = 12u;   // texels: DeviceColours, kSpecVertexColours only
 DUOLUX_CONST uint kBindingRays = 13u;      // texels: TraceRay, two texels each
 DUOLUX_CONST uint kBindingHits = 14u;      // storage: TraceHit
+DUOLUX_CONST uint kBindingAlbedo = 15u;    // texels: the tables of albedo_layout.h
 
 // Specialisation constants.
 DUOLUX_CONST uint kSpecWorkgroupSize = 0u;

@@ -26,10 +26,16 @@ DUOLUX_CONST uint kMaterialAlphaBlend = 8u;  // without either of the two, alpha
 
 // Lobes.
 DUOLUX_CONST uint kLobeDiffuse = 1u;
-DUOLUX_CONST uint kLobeConductor = 2u;
-DUOLUX_CONST uint kLobesThatTransmit = 0u;  // scatter to the other side of the surface, too
+DUOLUX_CONST uint kLobeMetal = 2u;
+DUOLUX_CONST uint kLobeDielectric = 4u;  // reflection on a diffuse surface
+DUOLUX_CONST uint kLobeGlass = 8u;
+DUOLUX_CONST uint kLobeClearcoat = 16u;
+DUOLUX_CONST uint kLobeSheen = 32u;
+DUOLUX_CONST uint kLobeAnisotropic = 64u;  // metal, dielectric or glass are stretched along the tangent
+DUOLUX_CONST uint kAllLobes = 127u;
+DUOLUX_CONST uint kLobesThatTransmit = kLobeGlass;  // scatter to the other side of the surface, too
 
-// Metals whose GGX alpha (the square of the roughness) is below this are mirrors.
+// Microfacets whose GGX alpha (the square of the roughness) is below this are smooth.
 DUOLUX_CONST float kSmoothAlpha = 1e-3f;
 
 #ifdef __cplusplus

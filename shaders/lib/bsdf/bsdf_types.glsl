@@ -2,6 +2,7 @@
 #ifndef DUOLUX_LIB_BSDF_BSDF_TYPES_GLSL
 #define DUOLUX_LIB_BSDF_BSDF_TYPES_GLSL
 
+#include "shaders/lib/frame.glsl"
 #include "shaders/lib/warp.glsl"
 #include "shaders/shared/material_layout.h"
 
@@ -12,19 +13,50 @@
 const uint kModeRadiance = 0u;
 const uint kModeImportance = 1u;
 
-// The parameters of all lobes (material_layout.h).
+// The parameters of all lobes (Material in host/scene/material.h).
 struct Bsdf {
     vec3 baseColor;
     float metallic;
     float roughness;
+    vec3 f0;              // of the dielectric: reflectance at normal incidence
+    float specular;       // of the dielectric: reflectance at grazing incidence
+    float transmission;
+    float eta;            // index of refraction of the side opposite to wo, relative to that of wo
+    uint flags;           // kBsdf...
+    float clearcoat;
+    float clearcoatRoughness;
+    vec3 sheenColor;
+    float sheenRoughness;
+    vec2 alpha;           // of GGX, along and across the tangent
 };
 
-// The two unit normals of a surface, both on the side of `wo`. `wo` is above the geometric normal's horizon, but may be
-// below the shading normal's.
+const uint kBsdfThin = 1u;     // glass is a wall without thickness
+const uint kBsdfOutside = 2u;  // wo is on the side of the triangle's front
+
+bool isThin(Bsdf bsdf) { return (bsdf.flags & kBsdfThin) != 0u; }
+bool isOutside(Bsdf bsdf) { return (bsdf.flags & kBsdfOutside) != 0u; }
+
+// The two unit normals of a surface, both on the side of `wo`, and the unit tangent, at a right angle to the shading
+// normal. `wo` is above the geometric normal's horizon, but may be below the shading normal's.
 struct BsdfFrame {
     vec3 shading;
     vec3 geometric;
+    vec3 tangent;  // used only by anisotropic lobes
 };
+
+layout(constant_id = kSpecLobes) const uint kLobes = kAllLobes;
+
+const bool kAnisotropic = (kLobes & kLobeAnisotropic) != 0u;
+
+// Transforms a direction to the frame of the shading normal and the tangent.
+vec3 toShadingFrame(BsdfFrame frame, vec3 w) {
+    if (!kAnisotropic) return toFrame(frame.shading, w);
+    return vec3(dot(frame.tangent, w), dot(cross(frame.shading, frame.tangent), w), dot(frame.shading, w));
+}
+vec3 fromShadingFrame(BsdfFrame frame, vec3 local) {
+    if (!kAnisotropic) return fromFrame(frame.shading, local);
+    return normalize(frame.tangent * local.x + cross(frame.shading, frame.tangent) * local.y + frame.shading * local.z);
+}
 
 // `wi` is on the other side than `wo` where a lobe transmits: dot(geometric, wi) < 0.
 struct BsdfSample {
@@ -51,5 +83,13 @@ float bsdfCosine(BsdfFrame frame, vec3 wi, uint mode) { return abs(dot(normalOfM
 bool reflects(BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
     return dot(frame.geometric, wi) > 0.0 && dot(frame.shading, incidentOf(wo, wi, mode)) > 0.0;
 }
+
+// Whether `wi` leaves the surface on the other side, for both normals.
+bool transmits(BsdfFrame frame, vec3 wo, vec3 wi) {
+    return dot(frame.geometric, wi) < 0.0 && dot(frame.shading, wi) < 0.0 && dot(frame.shading, wo) > 0.0;
+}
+
+// Whether the main microfacets reflect (and refract) without spreading light.
+bool isSmooth(Bsdf bsdf) { return bsdf.alpha.x * bsdf.alpha.y < kSmoothAlpha * kSmoothAlpha; }
 
 #endif

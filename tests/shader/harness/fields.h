@@ -39,47 +39,77 @@ constexpr std::size_t count() {
 
 }  // namespace fields
 
-/// References to the fields of a structure, in the order of their declaration; at most 12.
+/// References to the fields of a structure, in the order of their declaration; at most 22.
 template <Structure S>
 constexpr auto fieldsOf(const S& s) {
-    constexpr std::size_t n = fields::count<S>();
-    static_assert(n >= 1 && n <= 12);
-    if constexpr (n == 1) {
+    constexpr std::size_t count = fields::count<S>();
+    static_assert(count >= 1 && count <= 22);
+    if constexpr (count == 1) {
         const auto& [a] = s;
         return std::tie(a);
-    } else if constexpr (n == 2) {
+    } else if constexpr (count == 2) {
         const auto& [a, b] = s;
         return std::tie(a, b);
-    } else if constexpr (n == 3) {
+    } else if constexpr (count == 3) {
         const auto& [a, b, c] = s;
         return std::tie(a, b, c);
-    } else if constexpr (n == 4) {
+    } else if constexpr (count == 4) {
         const auto& [a, b, c, d] = s;
         return std::tie(a, b, c, d);
-    } else if constexpr (n == 5) {
+    } else if constexpr (count == 5) {
         const auto& [a, b, c, d, e] = s;
         return std::tie(a, b, c, d, e);
-    } else if constexpr (n == 6) {
+    } else if constexpr (count == 6) {
         const auto& [a, b, c, d, e, f] = s;
         return std::tie(a, b, c, d, e, f);
-    } else if constexpr (n == 7) {
+    } else if constexpr (count == 7) {
         const auto& [a, b, c, d, e, f, g] = s;
         return std::tie(a, b, c, d, e, f, g);
-    } else if constexpr (n == 8) {
+    } else if constexpr (count == 8) {
         const auto& [a, b, c, d, e, f, g, h] = s;
         return std::tie(a, b, c, d, e, f, g, h);
-    } else if constexpr (n == 9) {
+    } else if constexpr (count == 9) {
         const auto& [a, b, c, d, e, f, g, h, i] = s;
         return std::tie(a, b, c, d, e, f, g, h, i);
-    } else if constexpr (n == 10) {
+    } else if constexpr (count == 10) {
         const auto& [a, b, c, d, e, f, g, h, i, j] = s;
         return std::tie(a, b, c, d, e, f, g, h, i, j);
-    } else if constexpr (n == 11) {
+    } else if constexpr (count == 11) {
         const auto& [a, b, c, d, e, f, g, h, i, j, k] = s;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k);
-    } else {
+    } else if constexpr (count == 12) {
         const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = s;
         return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
+    } else if constexpr (count == 13) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m);
+    } else if constexpr (count == 14) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    } else if constexpr (count == 15) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+    } else if constexpr (count == 16) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+    } else if constexpr (count == 17) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+    } else if constexpr (count == 18) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+    } else if constexpr (count == 19) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_);
+    } else if constexpr (count == 20) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_, t] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_, t);
+    } else if constexpr (count == 21) {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_, t, u] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_, t, u);
+    } else {
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_, t, u, v] = s;
+        return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t_, t, u, v);
     }
 }
 

@@ -21,6 +21,7 @@ namespace swizzle {
 template <int... Components>
 struct Swizzle {};
 inline constexpr Swizzle<0, 1> xy;
+inline constexpr Swizzle<1, 0> yx;
 inline constexpr Swizzle<2, 3> zw;
 inline constexpr Swizzle<0, 1, 2> xyz;
 inline constexpr Swizzle<1, 2, 3> yzw;
@@ -49,7 +50,7 @@ struct Array {
 /// The contents of the kernels' texel buffers. The library reads a scene only through the functions that
 /// fetch from them.
 struct Texels {
-    std::vector<glm::uvec4> nodes, pairs, planes, normals, colours, materials, emitters;
+    std::vector<glm::uvec4> nodes, pairs, planes, normals, colours, materials, emitters, albedo;
 };
 inline Texels& texels() {
     static Texels instance;
