@@ -11,6 +11,7 @@
 #include "host/loaders/json_scene.h"
 #include "host/loaders/obj.h"
 #include "host/loaders/ply.h"
+#include "host/loaders/stl.h"
 #include "host/scene/compose.h"
 
 namespace duolux {
@@ -23,7 +24,7 @@ struct MeshFormat {
     std::string_view extension;
     Mesh (*load)(const fs::path& path, MaterialFiles& files);
 };
-constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}};
+constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}, {".stl", loadStl}};
 
 constexpr std::string_view kJsonExtension = ".json";
 
@@ -54,12 +55,15 @@ SceneFile readMeshScene(const fs::path& path, Reading reading) {
     MaterialFiles files(reading);
     Mesh mesh = loadMesh(path, files);
     setOrigin(scene, mesh.origin);
+    const glm::dvec3 up = mesh.up;
     appendMesh(scene, std::move(mesh));
     if (scene.geometry.triangles.empty()) {
         throw InputError(path.string(), "", "every triangle has zero area", "expected triangles with area");
     }
     const std::size_t triangles = scene.geometry.triangles.size();
-    return {std::move(scene), {}, triangles, false, false};
+    CameraChoice camera;
+    camera.upwards = up;
+    return {std::move(scene), camera, triangles, false, false};
 }
 
 }  // namespace

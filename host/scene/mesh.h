@@ -16,6 +16,7 @@ struct Mesh {
     std::vector<std::filesystem::path> files;  ///< all files read: the mesh and its MTL files
     Geometry geometry;                         ///< positions are relative to `origin`
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
+    glm::dvec3 up{0.0, 1.0, 0.0};     ///< the direction that is up by the format's convention
     std::vector<Material> materials;  ///< used by faces; Texture::image is an index into `images`
     std::vector<ImageSource> images;
     std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face uses
