@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/loaders/json_scene.h"
+#include "host/loaders/missing_uvs.h"
 #include "host/loaders/obj.h"
 #include "host/loaders/ply.h"
 #include "host/loaders/stl.h"
@@ -55,14 +56,12 @@ SceneFile readMeshScene(const fs::path& path, Reading reading) {
     MaterialFiles files(reading);
     Mesh mesh = loadMesh(path, files);
     setOrigin(scene, mesh.origin);
-    const glm::dvec3 up = mesh.up;
+    const CameraChoice camera = mesh.camera;
     appendMesh(scene, std::move(mesh));
     if (scene.geometry.triangles.empty()) {
         throw InputError(path.string(), "", "every triangle has zero area", "expected triangles with area");
     }
     const std::size_t triangles = scene.geometry.triangles.size();
-    CameraChoice camera;
-    camera.upwards = up;
     return {std::move(scene), camera, triangles, false, false};
 }
 
@@ -95,7 +94,9 @@ void requireScenePath(const fs::path& path) {
 
 SceneFile readSceneFile(const fs::path& path, Reading reading) {
     requireScenePath(path);
-    return isMeshPath(path) ? readMeshScene(path, reading) : readJsonScene(path, reading);
+    SceneFile file = isMeshPath(path) ? readMeshScene(path, reading) : readJsonScene(path, reading);
+    warnOfMissingUvs(file.scene);
+    return file;
 }
 
 }  // namespace duolux

@@ -172,7 +172,7 @@ Mesh loadStl(const fs::path& path, MaterialFiles& files) {
     Mesh mesh;
     mesh.source = path;
     mesh.files.push_back(path);
-    mesh.up = {0.0, 0.0, 1.0};
+    mesh.camera.upwards = {0.0, 0.0, 1.0};
     StlFacets facets = readStl(path, files.reading());
     std::error_code ec;
     mesh.bytes = fs::file_size(path, ec);

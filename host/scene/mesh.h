@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/camera_choice.h"
 #include "host/scene/scene.h"
 
 namespace duolux {
@@ -16,9 +17,9 @@ struct Mesh {
     std::vector<std::filesystem::path> files;  ///< all files read: the mesh and its MTL files
     Geometry geometry;                         ///< positions are relative to `origin`
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
-    glm::dvec3 up{0.0, 1.0, 0.0};     ///< the direction that is up by the format's convention
     std::vector<Material> materials;  ///< used by faces; Texture::image is an index into `images`
     std::vector<ImageSource> images;
+    CameraChoice camera;  ///< the camera of the file; nothing is specified if it has none
     std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face uses
     std::vector<std::string> warnings;
     std::uint64_t bytes = 0;  ///< size of the file
