@@ -68,9 +68,11 @@ class MapReader {
             found == std::end(kOptions) ? OptionSyntax{word, MapOption::kUnknown, 0, 3} : *found;
         advance(word);
         std::string_view value;
-        if (syntax.words > 0 && firstWord(rest_).size() < rest_.size()) {
-            value = firstWord(rest_);
-            advance(value);
+        const std::string_view next = firstWord(rest_);
+        // The last word is the file, unless it cannot be one.
+        if (syntax.words > 0 && (next.size() < rest_.size() || next == "on" || next == "off")) {
+            value = next;
+            advance(next);
         }
         glm::dvec3 numbers(0.0);
         int count = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "host/base/printable.h"
@@ -15,6 +16,9 @@
 namespace duolux {
 
 namespace {
+
+/// Larger texture coordinates have no precision left.
+constexpr double kLargestUv = 1e6;
 
 /// Reads the lines of one part.
 class PartReader {
@@ -102,13 +106,21 @@ class PartReader {
     void readTexture(const char* line, const char* arguments) {
         const char* const remedy = "expected \"vt u v\"";
         const ObjNumbers numbers = readObjNumbers(arguments, end_);
-        ++seen_.textureCoordinates;
+        glm::vec2& uv = target_.uvs[seen_.textureCoordinates++];
+        uv = kBadUv;
         const char* const wrong = numbers.wrong() != nullptr ? numbers.wrong() : numbers.oddExtra;
         if (wrong != nullptr) {
             complaints_.tolerate(ObjOddity::kTexture, line, [&] { complaints_.reportNumber(wrong, remedy); });
         } else if (numbers.count < 1 || numbers.count > 3) {
             complaints_.tolerate(ObjOddity::kTexture, line,
                                  [&] { complaints_.reportCount(line, numbers.count, remedy); });
+        } else if (std::max(std::abs(numbers.values.x), std::abs(numbers.values.y)) > kLargestUv) {
+            complaints_.tolerate(ObjOddity::kTexture, line, [&] {
+                complaints_.report(line, "a texture coordinate is too large",
+                                   fmt::format("expected at most {:g} in magnitude", kLargestUv));
+            });
+        } else {
+            uv = glm::vec2(numbers.values.x, 1.0 - numbers.values.y);
         }
     }
 
