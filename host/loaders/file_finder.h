@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -21,6 +22,10 @@ struct FileNames {
     /// Whether a file of another spelling must have one of them.
     bool onlyThese = true;
 };
+
+inline constexpr std::array<std::string_view, 5> kImageExtensions{".png", ".jpg", ".jpeg", ".exr", ".hdr"};
+/// Images, which are recognised by their content.
+inline constexpr FileNames kImageNames{kImageExtensions, false};
 
 /// Finds files that other files name, maybe in the manner of another system. Folders are listed once.
 class FileFinder {

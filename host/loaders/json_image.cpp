@@ -8,6 +8,7 @@
 
 #include "host/base/printable.h"
 #include "host/loaders/file_finder.h"
+#include "host/loaders/uv_range.h"
 
 namespace duolux {
 
@@ -15,7 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kLargestUv = 1e6;        // of scale and offset
 constexpr double kLargestRotation = 1e6;  // degrees
 
 glm::vec2 readPair(const JsonNode& node) {

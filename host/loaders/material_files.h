@@ -20,6 +20,7 @@ class MaterialFiles {
     explicit MaterialFiles(Reading reading) : reading_(reading) {}
 
     Reading reading() const { return reading_; }
+    FileFinder& finder() { return finder_; }
 
     /// Finds the MTL file to which a mesh in `folder` refers, see FileFinder.
     std::optional<std::filesystem::path> find(const std::filesystem::path& folder, std::string_view name);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -105,8 +104,6 @@ constexpr ImageStatement kImages[] = {
     {"map_Ps", MtlImage::kSheen, ColourSpace::kSrgb},
     {"norm", MtlImage::kNormal, ColourSpace::kLinear},
 };
-
-constexpr std::array<std::string_view, 5> kImageExtensions{".png", ".jpg", ".jpeg", ".exr", ".hdr"};
 
 /// The statement of this keyword; null if there is none in the list.
 template <typename Statement, std::size_t kCount>
@@ -305,7 +302,7 @@ class MtlReader {
     std::optional<std::uint32_t> imageOf(std::string_view name) {
         const auto [entry, isNew] = imagesByName_.try_emplace(std::string(name));
         if (!isNew) return entry->second;
-        const auto file = finder_.find(folder_, name, {kImageExtensions, false});
+        const auto file = finder_.find(folder_, name, kImageNames);
         if (!file) return std::nullopt;
         const auto [index, isNewFile] =
             imagesByFile_.try_emplace(*file, static_cast<std::uint32_t>(library_.images.size()));

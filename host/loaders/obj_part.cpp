@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 
 #include "host/base/printable.h"
@@ -16,9 +15,6 @@
 namespace duolux {
 
 namespace {
-
-/// Larger texture coordinates have no precision left.
-constexpr double kLargestUv = 1e6;
 
 /// Reads the lines of one part.
 class PartReader {
@@ -114,13 +110,11 @@ class PartReader {
         } else if (numbers.count < 1 || numbers.count > 3) {
             complaints_.tolerate(ObjOddity::kTexture, line,
                                  [&] { complaints_.reportCount(line, numbers.count, remedy); });
-        } else if (std::max(std::abs(numbers.values.x), std::abs(numbers.values.y)) > kLargestUv) {
+        } else if (uv = uvFromBelow(numbers.values.x, numbers.values.y); uv == kBadUv) {
             complaints_.tolerate(ObjOddity::kTexture, line, [&] {
                 complaints_.report(line, "a texture coordinate is too large",
                                    fmt::format("expected at most {:g} in magnitude", kLargestUv));
             });
-        } else {
-            uv = glm::vec2(numbers.values.x, 1.0 - numbers.values.y);
         }
     }
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +12,7 @@
 #include "host/loaders/obj_statements.h"
 #include "host/loaders/source_text.h"
 #include "host/loaders/tally.h"
+#include "host/loaders/uv_range.h"
 
 namespace duolux {
 
@@ -41,9 +41,6 @@ struct ObjPart {
     std::optional<TextProblem> badFace;  ///< the first face that is left out because of its vertices
     ObjNotes notes;
 };
-
-/// Of texture coordinates that are not finite numbers.
-inline constexpr glm::vec2 kBadUv{std::numeric_limits<float>::infinity()};
 
 /// The destination of the vertices, normals and texture coordinates of one part.
 struct ObjPartTarget {
