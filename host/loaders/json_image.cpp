@@ -25,7 +25,7 @@ glm::vec2 readPair(const JsonNode& node) {
             static_cast<float>(numbers[1].number(-kLargestUv, kLargestUv, remedy))};
 }
 
-void readWrap(const JsonNode& node, Texture& texture) {
+void readWrapOfAxes(const JsonNode& node, Texture& texture) {
     if (!node.isArray()) {
         texture.wrapU = texture.wrapV = node.choice<Wrap>();
         return;
@@ -96,7 +96,7 @@ Texture readTexture(const JsonNode& node, ColourSpace colourSpace, JsonImages& i
         texture.transform.rotation = static_cast<float>(
             rotation->number(-kLargestRotation, kLargestRotation, "expected an angle in degrees"));
     }
-    if (const auto wrap = node.find("wrap")) readWrap(*wrap, texture);
+    if (const auto wrap = node.find("wrap")) readWrapOfAxes(*wrap, texture);
     if (const auto filter = node.find("filter")) texture.filter = filter->choice<Filter>();
     return texture;
 }

@@ -25,9 +25,9 @@ constexpr const char* kOrImage = R"(, or {"image": file})";
 constexpr const char* kFraction = "expected a number from 0 to 1";
 
 /// Reads the properties of a material that are given.
-class MaterialReader {
+class JsonMaterialReader {
   public:
-    MaterialReader(const JsonNode& node, Material& material, JsonImages& images)
+    JsonMaterialReader(const JsonNode& node, Material& material, JsonImages& images)
         : node_(node), material_(material), images_(images) {}
 
     bool has(std::initializer_list<const char*> keys) const {
@@ -94,7 +94,7 @@ class MaterialReader {
             if (findTexture(material_, MaterialInput::kNormal) == nullptr)
                 value->fail("scales an image that the material does not have", remedy);
         }
-        MaterialReader(*value, material_, images_)
+        JsonMaterialReader(*value, material_, images_)
             .number("scale", -kLargestScale, kLargestScale,
                     fmt::format("expected a number of at most {:g} in magnitude", kLargestScale),
                     material_.normalScale);
@@ -104,7 +104,7 @@ class MaterialReader {
         const auto value = node_.find("alpha");
         if (!value) return;
         value->expectKeys({"mode", "value", "cutoff"});
-        const MaterialReader reader(*value, material_, images_);
+        const JsonMaterialReader reader(*value, material_, images_);
         reader.fraction("value", MaterialInput::kAlpha, material_.alpha.value);
         reader.number("cutoff", 0.0, kLargestScale,
                       fmt::format("expected a number from 0 to {:g}", kLargestScale), material_.alpha.cutoff);
@@ -199,7 +199,7 @@ void readMaterial(const JsonNode& node, Material& material, JsonImages& images) 
                      "specular_color",
                      "thin",
                      "transmission"});
-    const MaterialReader reader(node, material, images);
+    const JsonMaterialReader reader(node, material, images);
     const auto baseColor = node.find("base_color"), diffuse = node.find("diffuse");
     if (baseColor && diffuse) diffuse->fail("is another name of base_color", "expected one of the two");
     const std::string albedo = "expected an albedo: a number or [r, g, b], from 0 to 1";

@@ -12,16 +12,16 @@ namespace duolux {
 
 namespace {
 
-constexpr double kLargestFactor = 1e6;
+constexpr double kLargestEntry = 1e6;
 
 ReflectanceMatrix readMatrix(const JsonNode& node) {
     const char* const shape = "expected [[m00, m01], [m10, m11]]";
-    const std::string entry = fmt::format("expected a number or [r, g, b], from 0 to {:g}", kLargestFactor);
+    const std::string entry = fmt::format("expected a number or [r, g, b], from 0 to {:g}", kLargestEntry);
     const std::vector<JsonNode> rows = node.elements(shape, 2);
     const std::vector<JsonNode> invisible = rows[0].elements(shape, 2);
     const std::vector<JsonNode> visible = rows[1].elements(shape, 2);
-    return {invisible[0].colour(0.0, kLargestFactor, entry), invisible[1].colour(0.0, kLargestFactor, entry),
-            visible[0].colour(0.0, kLargestFactor, entry), visible[1].colour(0.0, kLargestFactor, entry)};
+    return {invisible[0].colour(0.0, kLargestEntry, entry), invisible[1].colour(0.0, kLargestEntry, entry),
+            visible[0].colour(0.0, kLargestEntry, entry), visible[1].colour(0.0, kLargestEntry, entry)};
 }
 
 Reflectance readPreset(const JsonNode& node) {

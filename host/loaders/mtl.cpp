@@ -54,13 +54,13 @@ constexpr OddityText<Oddity> kMtlOddities[] = {
     {Oddity::kUnnamedImage, "an image without a name", "ignored"},
 };
 
-struct ColourStatement {
+struct MtlColour {
     std::string_view keyword;
     std::optional<glm::dvec3> MtlValues::*value;
     double largest;
     bool mayBeOneNumber;
 };
-constexpr ColourStatement kColours[] = {
+constexpr MtlColour kMtlColours[] = {
     {"Kd", &MtlValues::diffuse, kLargestRadiance, false},
     {"Ke", &MtlValues::emission, kLargestRadiance, false},
     {"Ks", &MtlValues::specular, 1.0, false},
@@ -68,12 +68,12 @@ constexpr ColourStatement kColours[] = {
     {"Ps", &MtlValues::sheen, 1.0, true},
 };
 
-struct NumberStatement {
+struct MtlNumber {
     std::string_view keyword;
     std::optional<double> MtlValues::*value;
     double smallest, largest;
 };
-constexpr NumberStatement kNumbers[] = {
+constexpr MtlNumber kMtlNumbers[] = {
     {"Ns", &MtlValues::exponent, 0.0, 1e6},
     {"d", &MtlValues::dissolve, 0.0, 1.0},
     {"Tr", &MtlValues::transparency, 0.0, 1.0},
@@ -87,12 +87,12 @@ constexpr NumberStatement kNumbers[] = {
     {"anisor", &MtlValues::anisotropyRotation, -1e3, 1e3},
 };
 
-struct ImageStatement {
+struct MtlImageStatement {
     std::string_view keyword;
     MtlImage image;
     ColourSpace colourSpace;  ///< of colours; numbers are linear
 };
-constexpr ImageStatement kImages[] = {
+constexpr MtlImageStatement kMtlImages[] = {
     {"map_Kd", MtlImage::kDiffuse, ColourSpace::kSrgb},
     {"map_Ks", MtlImage::kSpecular, ColourSpace::kSrgb},
     {"map_Ke", MtlImage::kEmission, ColourSpace::kSrgb},
@@ -141,9 +141,9 @@ class MtlReader {
         const std::string_view arguments = trimmed(line.substr(keyword.size()));
         if (keyword.empty() || keyword.front() == '#') return;
         if (keyword == "newmtl") return begin(line, arguments);
-        const auto* const colour = findStatement(kColours, keyword);
-        const auto* const number = findStatement(kNumbers, keyword);
-        const auto* const image = findStatement(kImages, keyword);
+        const auto* const colour = findStatement(kMtlColours, keyword);
+        const auto* const number = findStatement(kMtlNumbers, keyword);
+        const auto* const image = findStatement(kMtlImages, keyword);
         if (!inMaterial_) {
             const bool matters = keyword == "Kd" || keyword == "Ke" || keyword == "map_Kd";
             if (anyMaterial_) return;  // it belongs to a material without a name
@@ -200,7 +200,7 @@ class MtlReader {
                  "expected names that differ");
     }
 
-    void readColour(std::string_view line, const ColourStatement& statement, std::string_view arguments) {
+    void readColour(std::string_view line, const MtlColour& statement, std::string_view arguments) {
         const std::string_view keyword = statement.keyword;
         const std::string remedy = fmt::format("expected \"{} r g b\"", keyword);
         glm::dvec3 colour(0.0);
@@ -248,7 +248,7 @@ class MtlReader {
         }
     }
 
-    void readValue(std::string_view line, const NumberStatement& statement, std::string_view arguments) {
+    void readValue(std::string_view line, const MtlNumber& statement, std::string_view arguments) {
         constexpr std::string_view kHalo = "-halo";
         if (firstWord(arguments) == kHalo) {
             unused_.addOption(kHalo, offsetOf(line));
@@ -267,7 +267,7 @@ class MtlReader {
         values_.*statement.value = std::clamp(value, statement.smallest, statement.largest);
     }
 
-    void readImage(std::string_view line, const ImageStatement& statement, std::string_view arguments) {
+    void readImage(std::string_view line, const MtlImageStatement& statement, std::string_view arguments) {
         const MtlMap map = readMtlMap(arguments);
         for (const std::string_view option : map.unused)
             unused_.addOption(option, offsetOf(line));

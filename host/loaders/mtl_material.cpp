@@ -23,7 +23,7 @@ constexpr double kUsualRoughness = 0.5;
 /// The reflectance of a dielectric with index 1.5 at normal incidence: (0.5 / 2.5)^2.
 constexpr double kReflectanceOfGlass = 0.04;
 
-double largest(const glm::dvec3& colour) {
+double largestOf(const glm::dvec3& colour) {
     return std::max({colour.x, colour.y, colour.z});
 }
 
@@ -90,7 +90,7 @@ class MtlMapper {
     bool isGlass() const {
         const bool refracts = model_ == 4 || model_ == 6 || model_ == 7 || model_ == 9;
         const bool filters = !values_.dissolve && !values_.transparency && values_.filter &&
-                             largest(*values_.filter) > 0.0 && values_.ior.value_or(1.0) > 1.0;
+                             largestOf(*values_.filter) > 0.0 && values_.ior.value_or(1.0) > 1.0;
         return refracts && !hasImage(MtlImage::kDissolve) && (opacity_ < kMtlOpaque || filters);
     }
 
@@ -130,7 +130,7 @@ class MtlMapper {
     }
 
     static bool isColoured(const glm::dvec3& colour) {
-        return largest(colour) - std::min({colour.x, colour.y, colour.z}) > kUnnoticedHue;
+        return largestOf(colour) - std::min({colour.x, colour.y, colour.z}) > kUnnoticedHue;
     }
     static bool isWhiteOrBlack(const glm::dvec3& filter) {
         return glm::all(glm::lessThanEqual(filter, glm::dvec3(0.0))) ||
@@ -155,16 +155,16 @@ class MtlMapper {
         const bool hasHighlight = model_ >= 2 && model_ <= 9;
         const glm::dvec3 specular =
             values_.specular.value_or(glm::dvec3(hasImage(MtlImage::kSpecular) ? 1.0 : 0.0));
-        const bool isLarge = largest(specular) > kUsualSpecular;
+        const bool isLarge = largestOf(specular) > kUsualSpecular;
         const bool isShiny =
-            largest(specular) > 0.0 && (isMirror || isLarge || hasImage(MtlImage::kSpecular));
+            largestOf(specular) > 0.0 && (isMirror || isLarge || hasImage(MtlImage::kSpecular));
         if (!hasHighlight || !isShiny) {
             if (hasImage(MtlImage::kSpecular)) unused_.push_back("map_Ks");
             return;
         }
         material_.roughness =
             static_cast<float>(isMirror ? mirrorRoughness() : roughnessOf(values_.exponent.value_or(0.0)));
-        const bool isBlack = values_.diffuse && largest(*values_.diffuse) <= kBlack;
+        const bool isBlack = values_.diffuse && largestOf(*values_.diffuse) <= kBlack;
         if (isLarge && isBlack && !hasImage(MtlImage::kDiffuse)) {
             material_.metallic = 1.0f;
             material_.baseColor = glm::vec3(specular);

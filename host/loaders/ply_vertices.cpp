@@ -24,9 +24,9 @@ constexpr std::array<PropertyNames<3>, 3> kColourNames{
 constexpr std::array<PropertyNames<2>, 4> kUvNames{
     {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
 
-class VertexReader {
+class PlyVertexReader {
   public:
-    VertexReader(const PlyElement& element, PlyBody& body, bool strict, PlyOddities& oddities)
+    PlyVertexReader(const PlyElement& element, PlyBody& body, bool strict, PlyOddities& oddities)
         : element_(element), body_(body), strict_(strict), oddities_(oddities) {}
 
     PlyVertices run() {
@@ -162,7 +162,7 @@ class VertexReader {
 }  // namespace
 
 PlyVertices readPlyVertices(const PlyElement& element, PlyBody& body, bool strict, PlyOddities& oddities) {
-    return VertexReader(element, body, strict, oddities).run();
+    return PlyVertexReader(element, body, strict, oddities).run();
 }
 
 }  // namespace duolux

@@ -70,7 +70,7 @@ class FacetColours {
         mesh.geometry.materials.resize(facets_.count());
         for (std::size_t i = 0; i < facets_.count(); ++i) {
             const std::uint16_t bits = anyColour_ ? facets_.attributes[i] : std::uint16_t{0};
-            const bool hasColour = ((bits & kFlag) != 0) != isMagics;
+            const bool hasColour = anyColour_ && ((bits & kFlag) != 0) != isMagics;
             if (!hasColour && !isMagics && bits != 0) ++unused;
             mesh.geometry.materials[i] = hasColour  ? materialOf(mesh, colourOf(bits, isMagics))
                                          : isMagics ? materialOf(mesh, *facets_.colour)

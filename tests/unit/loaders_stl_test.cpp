@@ -106,6 +106,12 @@ TEST_F(StlTest, TextAndBinaryMeanTheSame) {
     EXPECT_EQ(fromBinary.bytes, 84u + 2u * 50u);
 }
 
+TEST_F(StlTest, ZerosOfEitherSignAreEqual) {
+    Facet other = kOther;
+    other.corners[0] = glm::vec3(1.0f, -0.0f, -0.0f);
+    EXPECT_EQ(mesh(binary({kFlat, other})).geometry.positions.size(), 4u);
+}
+
 TEST_F(StlTest, TheSizeTellsBinaryFromText) {
     const Mesh read = mesh(binary({kFlat}, "solid facet normal 0 0 1 outer loop vertex"));
     EXPECT_EQ(read.geometry.triangles.size(), 1u);
@@ -234,6 +240,8 @@ TEST_F(StlTest, ColoursOfFacets) {
     const Mesh magics = mesh(binary({facet(31), facet(0x8000), facet(31 << 10)}, header));
     EXPECT_THAT(colours(magics), ElementsAre(red, glm::vec3(0, 1, 0), blue));
     EXPECT_THAT(magics.warnings, ElementsAre(HasSubstr("MATERIAL= in the header is not supported")));
+
+    EXPECT_THAT(colours(mesh(binary({facet(0xffff)}, header))), ElementsAre(glm::vec3(0, 1, 0)));
 
     const Mesh junk = mesh(binary({facet(5), facet(0)}));
     EXPECT_THAT(colours(junk), ElementsAre(grey, grey));
