@@ -79,8 +79,8 @@ std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
 void addStrictOption(CLI::App& command, bool& strict) {
     command.add_flag("--strict", strict,
                      "Refuse scene files with errors that are otherwise warnings: invalid numbers, normals, "
-                     "corners and faces of meshes, colours that are not three numbers >= 0, missing or "
-                     "unreadable MTL files, materials undefined or defined twice");
+                     "corners, faces and counts of meshes, values of MTL files out of range, missing or "
+                     "unreadable MTL files and images, materials undefined or defined twice");
 }
 
 }  // namespace duolux

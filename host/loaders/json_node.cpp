@@ -40,7 +40,7 @@ void JsonNode::expectObject() const {
     if (!value_->is_object()) failValue("expected an object {...}");
 }
 
-void JsonNode::expectKeys(std::initializer_list<std::string_view> keys) const {
+void JsonNode::expectKeys(std::span<const std::string_view> keys) const {
     const std::vector<std::string> known(keys.begin(), keys.end());
     for (const auto& [key, node] : members()) {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
@@ -82,6 +82,10 @@ std::vector<JsonNode> JsonNode::elements(std::string_view remedy, std::optional<
 
 bool JsonNode::isNumber() const {
     return value_->is_number();
+}
+
+bool JsonNode::isObject() const {
+    return value_->is_object();
 }
 
 bool JsonNode::isArray() const {

@@ -28,7 +28,10 @@ class JsonNode {
     const std::filesystem::path& file() const { return *file_; }
 
     /// Requires an object whose keys are all among these.
-    void expectKeys(std::initializer_list<std::string_view> keys) const;
+    void expectKeys(std::span<const std::string_view> keys) const;
+    void expectKeys(std::initializer_list<std::string_view> keys) const {
+        expectKeys(std::span(keys.begin(), keys.size()));
+    }
     /// The members of an object, in the order of their names.
     std::vector<std::pair<std::string, JsonNode>> members() const;
     std::optional<JsonNode> find(std::string_view key) const;
@@ -40,6 +43,7 @@ class JsonNode {
                                    std::optional<std::size_t> count = std::nullopt) const;
 
     bool isArray() const;
+    bool isObject() const;
     bool isNumber() const;
     /// A finite number in [low, high].
     double number(double low, double high, std::string_view remedy) const;

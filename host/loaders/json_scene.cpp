@@ -15,6 +15,8 @@
 
 #include "host/base/nearest_name.h"
 #include "host/base/printable.h"
+#include "host/loaders/json_image.h"
+#include "host/loaders/json_material.h"
 #include "host/loaders/json_node.h"
 #include "host/loaders/json_surface.h"
 #include "host/loaders/json_text.h"
@@ -146,25 +148,9 @@ const std::string& expectedMesh() {
 
 fs::path readMeshPath(const JsonNode& node) {
     const std::string& remedy = expectedMesh();
-    const fs::path folder = node.file().parent_path();
-    fs::path path = node.text(remedy);
-    std::error_code ec;
-    // From another system, as MTL files of OBJ files.
-    if (!fs::exists(folder / path, ec)) path = withSlashes(path.string());
-    if (path.native().find('\0') != std::string::npos) node.failValue(remedy);
+    const fs::path path = readPath(node, remedy);
     if (!isMeshPath(path)) node.failValue(remedy);
-    constexpr std::size_t kLongest = 200;
-    fs::path file = folder / path;
-    if (!fs::is_regular_file(file, ec))
-        node.fail(fmt::format("there is no file {}", shortened(file.string(), kLongest)), remedy);
-    return file;
-}
-
-/// A unique name for a file, independent of "." and links in its path.
-fs::path identity(const fs::path& path) {
-    std::error_code ec;
-    fs::path canonical = fs::canonical(path, ec);
-    return ec ? path : canonical;
+    return requireFile(node, path, remedy);
 }
 
 void readObjects(const JsonNode& node, SceneContents& contents) {
@@ -240,16 +226,20 @@ void readMaterials(const JsonNode& node, const std::set<std::string>& unused, Lo
     std::unordered_map<std::string, std::vector<std::size_t>> byName;
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         byName[scene.materials[i].name].push_back(i);
+    JsonImages images(scene.imageSources, scene.files);
+    std::vector<ImageSource> ignoredSources;
+    std::vector<fs::path> ignoredFiles;
+    JsonImages ignoredImages(ignoredSources, ignoredFiles);
     std::string firstUnused;
     std::size_t unusedCount = 0;
     for (const auto& [name, overrides] : node.members()) {
         const auto found = byName.find(name);
         if (found != byName.end()) {
             for (const std::size_t material : found->second)
-                readMaterial(overrides, scene.materials[material]);
+                readMaterial(overrides, scene.materials[material], images);
         } else if (unused.contains(name)) {
             Material material;
-            readMaterial(overrides, material);
+            readMaterial(overrides, material, ignoredImages);
             if (unusedCount++ == 0) firstUnused = overrides.path();
         } else {
             std::set<std::string> names = unused;

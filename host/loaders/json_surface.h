@@ -14,7 +14,4 @@ void readEmission(const JsonNode& node, Emission& emission);
 /// The components of a point emitter's radiant intensity.
 void readIntensity(const JsonNode& node, PointEmitter& emitter);
 
-/// Each key of the object overrides a property of the material.
-void readMaterial(const JsonNode& node, Material& material);
-
 }  // namespace duolux

@@ -6,16 +6,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
+#include "host/loaders/file_finder.h"
 #include "host/loaders/mtl.h"
 #include "host/loaders/tally.h"
 
 namespace duolux {
-
-/// A path with slashes in place of backslashes.
-std::string withSlashes(std::string_view path);
 
 /// The MTL files that the meshes of a scene name. Each file is searched for and read once.
 class MaterialFiles {
@@ -23,10 +20,9 @@ class MaterialFiles {
     explicit MaterialFiles(Reading reading) : reading_(reading) {}
 
     Reading reading() const { return reading_; }
+    FileFinder& finder() { return finder_; }
 
-    /// Finds the file to which a mesh in `folder` refers. Tries the name as it is, without quotes, with
-    /// slashes in place of backslashes, with the extension added, in another case, and (for a path from
-    /// another machine) in the mesh's folder.
+    /// Finds the MTL file to which a mesh in `folder` refers, see FileFinder.
     std::optional<std::filesystem::path> find(const std::filesystem::path& folder, std::string_view name);
 
     /// `isNew` is true the first time. A file that cannot be read defines no material and gives a warning; in
@@ -44,16 +40,8 @@ class MaterialFiles {
     std::vector<const MaterialLibrary*> libraries() const;
 
   private:
-    struct Folder {
-        std::vector<std::string> names;                            ///< of MTL files, sorted
-        std::unordered_map<std::string, std::string> byLowerCase;  ///< the first of each
-    };
-
-    const Folder& folder(const std::filesystem::path& path);
-    std::optional<std::filesystem::path> findIgnoringCase(const std::filesystem::path& path);
-
     Reading reading_;
-    std::map<std::filesystem::path, Folder> folders_;
+    FileFinder finder_;
     std::map<std::filesystem::path, std::unique_ptr<const MaterialLibrary>> libraries_;
 };
 

@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "host/base/printable.h"
+#include "host/loaders/mtl_map.h"
+#include "host/loaders/mtl_material.h"
 #include "host/loaders/mtl_unused.h"
 #include "host/loaders/source_text.h"
 #include "host/loaders/tally.h"
@@ -29,6 +35,10 @@ enum class Oddity {
     kColourCount,
     kNegative,
     kAboveOne,
+    kNumber,
+    kRange,
+    kUnnamedImage,
+    kMissingImage,
     kCount
 };
 
@@ -39,12 +49,78 @@ constexpr OddityText<Oddity> kMtlOddities[] = {
     {Oddity::kColourCount, "a colour that is not three numbers",
      "one number is grey, further ones are 0, a fourth is ignored"},
     {Oddity::kNegative, "a colour below 0", "read as 0"},
+    {Oddity::kNumber, "a value that is not a finite number", "read as if it were absent"},
+    {Oddity::kRange, "a value out of its range", "clamped"},
+    {Oddity::kUnnamedImage, "an image without a name", "ignored"},
 };
+
+struct MtlColour {
+    std::string_view keyword;
+    std::optional<glm::dvec3> MtlValues::*value;
+    double largest;
+    bool mayBeOneNumber;
+};
+constexpr MtlColour kMtlColours[] = {
+    {"Kd", &MtlValues::diffuse, kLargestRadiance, false},
+    {"Ke", &MtlValues::emission, kLargestRadiance, false},
+    {"Ks", &MtlValues::specular, 1.0, false},
+    {"Tf", &MtlValues::filter, 1.0, false},
+    {"Ps", &MtlValues::sheen, 1.0, true},
+};
+
+struct MtlNumber {
+    std::string_view keyword;
+    std::optional<double> MtlValues::*value;
+    double smallest, largest;
+};
+constexpr MtlNumber kMtlNumbers[] = {
+    {"Ns", &MtlValues::exponent, 0.0, 1e6},
+    {"d", &MtlValues::dissolve, 0.0, 1.0},
+    {"Tr", &MtlValues::transparency, 0.0, 1.0},
+    {"Ni", &MtlValues::ior, 1.0, static_cast<double>(Material::kLargestIor)},
+    {"illum", &MtlValues::illumination, 0.0, 10.0},
+    {"Pr", &MtlValues::roughness, 0.0, 1.0},
+    {"Pm", &MtlValues::metallic, 0.0, 1.0},
+    {"Pc", &MtlValues::clearcoat, 0.0, 1.0},
+    {"Pcr", &MtlValues::clearcoatRoughness, 0.0, 1.0},
+    {"aniso", &MtlValues::anisotropy, -1.0, 1.0},
+    {"anisor", &MtlValues::anisotropyRotation, -1e3, 1e3},
+};
+
+struct MtlImageStatement {
+    std::string_view keyword;
+    MtlImage image;
+    ColourSpace colourSpace;  ///< of colours; numbers are linear
+};
+constexpr MtlImageStatement kMtlImages[] = {
+    {"map_Kd", MtlImage::kDiffuse, ColourSpace::kSrgb},
+    {"map_Ks", MtlImage::kSpecular, ColourSpace::kSrgb},
+    {"map_Ke", MtlImage::kEmission, ColourSpace::kSrgb},
+    {"map_d", MtlImage::kDissolve, ColourSpace::kLinear},
+    {"map_Pr", MtlImage::kRoughness, ColourSpace::kLinear},
+    {"map_Pm", MtlImage::kMetallic, ColourSpace::kLinear},
+    {"map_Pc", MtlImage::kClearcoat, ColourSpace::kLinear},
+    {"map_Pcr", MtlImage::kClearcoatRoughness, ColourSpace::kLinear},
+    {"map_Ps", MtlImage::kSheen, ColourSpace::kSrgb},
+    {"norm", MtlImage::kNormal, ColourSpace::kLinear},
+};
+
+/// The statement of this keyword; null if there is none in the list.
+template <typename Statement, std::size_t kCount>
+const Statement* findStatement(const Statement (&statements)[kCount], std::string_view keyword) {
+    const auto* const found =
+        std::find_if(std::begin(statements), std::end(statements),
+                     [&](const Statement& statement) { return statement.keyword == keyword; });
+    return found == std::end(statements) ? nullptr : found;
+}
 
 class MtlReader {
   public:
-    MtlReader(const std::filesystem::path& path, Reading reading)
-        : text_(path, "a Wavefront MTL file"), reading_(reading) {}
+    MtlReader(const std::filesystem::path& path, FileFinder& finder, Reading reading)
+        : text_(path, "a Wavefront MTL file"),
+          folder_(path.parent_path()),
+          finder_(finder),
+          reading_(reading) {}
 
     MaterialLibrary run() {
         const std::string_view all = text_.view();
@@ -65,19 +141,28 @@ class MtlReader {
         const std::string_view arguments = trimmed(line.substr(keyword.size()));
         if (keyword.empty() || keyword.front() == '#') return;
         if (keyword == "newmtl") return begin(line, arguments);
-        const bool isColour = keyword == "Kd" || keyword == "Ke";
+        const auto* const colour = findStatement(kMtlColours, keyword);
+        const auto* const number = findStatement(kMtlNumbers, keyword);
+        const auto* const image = findStatement(kMtlImages, keyword);
         if (!inMaterial_) {
-            const bool matters = isColour || keyword == "map_Kd";
+            const bool matters = keyword == "Kd" || keyword == "Ke" || keyword == "map_Kd";
             if (anyMaterial_) return;  // it belongs to a material without a name
             if (reading_ == Reading::kLenient || matters) {
                 tolerate(Oddity::kBeforeMaterial, line, fmt::format("{} before any newmtl", keyword),
                          "expected \"newmtl NAME\" first");
             }
-        } else if (isColour) {
-            readColour(line, keyword, arguments);
-        } else {
-            unused_.add(keyword, arguments, offsetOf(line));
+            return;
         }
+        if (colour != nullptr) {
+            readColour(line, *colour, arguments);
+        } else if (number != nullptr) {
+            readValue(line, *number, arguments);
+        } else if (image != nullptr) {
+            readImage(line, *image, arguments);
+        } else {
+            return unused_.add(keyword, offsetOf(line));
+        }
+        places_[keyword] = offsetOf(line);
     }
 
     void begin(std::string_view line, std::string_view name) {
@@ -85,6 +170,8 @@ class MtlReader {
         anyMaterial_ = true;
         inMaterial_ = !name.empty();
         material_ = Material();
+        values_ = MtlValues();
+        places_.clear();
         tooLarge_.reset();
         material_.name = name;
         definedAt_ = offsetOf(line);
@@ -96,6 +183,10 @@ class MtlReader {
         inMaterial_ = false;
         const auto index = static_cast<std::uint32_t>(library_.materials.size());
         const bool isNew = library_.byName.try_emplace(material_.name, index).second;
+        for (const std::string_view keyword : mapMtl(values_, material_)) {
+            const auto place = places_.find(keyword);
+            if (place != places_.end()) unused_.addInapplicable(keyword, place->second);
+        }
         unused_.finishMaterial(isNew);
         if (isNew) {
             library_.byPlainName.try_emplace(std::string(plainName(material_.name)), index);
@@ -109,7 +200,8 @@ class MtlReader {
                  "expected names that differ");
     }
 
-    void readColour(std::string_view line, std::string_view keyword, std::string_view arguments) {
+    void readColour(std::string_view line, const MtlColour& statement, std::string_view arguments) {
+        const std::string_view keyword = statement.keyword;
         const std::string remedy = fmt::format("expected \"{} r g b\"", keyword);
         glm::dvec3 colour(0.0);
         int count = 0;
@@ -132,32 +224,95 @@ class MtlReader {
             if (isLast) break;
             rest = trimmed(rest.substr(word.size()));
         }
-        if (count != 3) {
+        if (count != 3 && !(count == 1 && statement.mayBeOneNumber)) {
             tolerate(count == 0 ? Oddity::kColour : Oddity::kColourCount, line,
                      fmt::format("{}: {} numbers", keyword, count), remedy);
         }
         if (count == 0) return;
         if (count == 1) colour = glm::dvec3(colour.x);
-        setColour(line, keyword == "Kd", colour);
-    }
-
-    void setColour(std::string_view line, bool diffuse, const glm::dvec3& colour) {
-        if (!glm::all(glm::lessThanEqual(colour, glm::dvec3(kLargestRadiance)))) {
-            const TextProblem problem{offsetOf(line), diffuse ? "Kd: too large" : "Ke: too large",
-                                      fmt::format("expected numbers from 0 to {:g}", kLargestRadiance)};
+        if (glm::all(glm::lessThanEqual(colour, glm::dvec3(statement.largest)))) {
+            values_.*statement.value = colour;
+        } else if (statement.largest > 1.0) {
+            const TextProblem problem{offsetOf(line), fmt::format("{}: too large", keyword),
+                                      fmt::format("expected numbers from 0 to {:g}", statement.largest)};
             if (reading_ == Reading::kStrict) text_.fail(problem);
             if (!tooLarge_) tooLarge_ = problem;
             return;
+        } else {
+            tolerateRange(line, keyword, 0.0, statement.largest);
+            values_.*statement.value = glm::min(colour, glm::dvec3(statement.largest));
         }
-        if (!diffuse) {
-            material_.emission = {glm::vec3(colour), glm::vec3(colour), Sides::kFront};
-            return;
-        }
-        material_.baseColor = glm::vec3(colour);
-        if (glm::any(glm::greaterThan(material_.baseColor, glm::vec3(1.0f)))) {
+        if (keyword == "Kd" && glm::any(glm::greaterThan(colour, glm::dvec3(1.0)))) {
             if (oddities_[Oddity::kAboveOne].count == 0) aboveOne_ = material_.name;
             oddities_.add(Oddity::kAboveOne, offsetOf(line));
         }
+    }
+
+    void readValue(std::string_view line, const MtlNumber& statement, std::string_view arguments) {
+        constexpr std::string_view kHalo = "-halo";
+        if (firstWord(arguments) == kHalo) {
+            unused_.addOption(kHalo, offsetOf(line));
+            arguments = trimmed(arguments.substr(kHalo.size()));
+        }
+        const std::string_view word = firstWord(arguments);
+        const char* const end = word.data() + word.size();
+        const auto [past, value] = readNumber(word.data(), end);
+        if (past == nullptr || (past != end && *past != '#') || !std::isfinite(value)) {
+            return tolerate(Oddity::kNumber, line,
+                            fmt::format("{}: {} is not a finite number", statement.keyword, inQuotes(word)),
+                            fmt::format("expected \"{} NUMBER\"", statement.keyword));
+        }
+        if (value < statement.smallest || value > statement.largest)
+            tolerateRange(line, statement.keyword, statement.smallest, statement.largest);
+        values_.*statement.value = std::clamp(value, statement.smallest, statement.largest);
+    }
+
+    void readImage(std::string_view line, const MtlImageStatement& statement, std::string_view arguments) {
+        const MtlMap map = readMtlMap(arguments);
+        for (const std::string_view option : map.unused)
+            unused_.addOption(option, offsetOf(line));
+        const bool isNormal = statement.image == MtlImage::kNormal;
+        const bool isNumber = statement.colourSpace == ColourSpace::kLinear && !isNormal;
+        if (map.hasChannel && !isNumber) unused_.addOption("-imfchan", offsetOf(line));
+        if (map.scale != 1.0 && !isNormal) unused_.addOption("-bm", offsetOf(line));
+        if (plainName(map.file).empty()) {
+            return tolerate(Oddity::kUnnamedImage, line, fmt::format("{} names no image", statement.keyword),
+                            fmt::format("expected \"{} FILE\"", statement.keyword));
+        }
+        const std::optional<std::uint32_t> image = imageOf(map.file);
+        if (!image) {
+            if (oddities_[Oddity::kMissingImage].count == 0) missing_ = withSlashes(plainName(map.file));
+            return tolerate(Oddity::kMissingImage, line,
+                            fmt::format("there is no image {}", inQuotes(map.file)),
+                            "expected the path of an image, relative to the MTL file");
+        }
+        MtlImageUse use;
+        use.texture.image = *image;
+        use.texture.colourSpace = statement.colourSpace;
+        use.texture.wrapU = use.texture.wrapV = map.wrap;
+        use.texture.filter = map.filter;
+        use.texture.transform = map.transform;
+        use.channel = isNumber ? map.channel : 0;
+        use.hasChannel = map.hasChannel;
+        use.scale = map.scale;
+        values_.image(statement.image) = use;
+    }
+
+    /// The index of the image of this name; empty if there is no such file.
+    std::optional<std::uint32_t> imageOf(std::string_view name) {
+        const auto [entry, isNew] = imagesByName_.try_emplace(std::string(name));
+        if (!isNew) return entry->second;
+        const auto file = finder_.find(folder_, name, kImageNames);
+        if (!file) return std::nullopt;
+        const auto [index, isNewFile] =
+            imagesByFile_.try_emplace(*file, static_cast<std::uint32_t>(library_.images.size()));
+        if (isNewFile) library_.images.push_back({file->string(), *file, nullptr});
+        return entry->second = index->second;
+    }
+
+    void tolerateRange(std::string_view line, std::string_view keyword, double smallest, double largest) {
+        tolerate(Oddity::kRange, line, fmt::format("{}: out of range", keyword),
+                 fmt::format("expected {:g} to {:g}", smallest, largest));
     }
 
     void warn() {
@@ -167,6 +322,8 @@ class MtlReader {
              "the first one counts");
         warn(Oddity::kAboveOne, fmt::format("Kd of {} is above 1", inQuotes(aboveOne_)),
              "the surface reflects more light than it receives");
+        warn(Oddity::kMissingImage, fmt::format("there is no image {}", inQuotes(missing_)),
+             "materials are without it");
         unused_.warn(text_, library_.warnings);
     }
 
@@ -188,21 +345,27 @@ class MtlReader {
     }
 
     const SourceText text_;
+    const std::filesystem::path folder_;
+    FileFinder& finder_;
     const Reading reading_;
     MaterialLibrary library_;
     Tally<Oddity> oddities_;
-    std::string definedAgain_, aboveOne_;  ///< the first of their kind
+    std::string definedAgain_, aboveOne_, missing_;  ///< the first of their kind
     MtlUnused unused_;
-    Material material_;                    ///< the current one
-    std::size_t definedAt_ = 0;            ///< offset of the current material
-    std::optional<TextProblem> tooLarge_;  ///< a colour of the current material that is too large
+    std::unordered_map<std::string, std::optional<std::uint32_t>> imagesByName_;
+    std::map<std::filesystem::path, std::uint32_t> imagesByFile_;
+    Material material_;                               ///< the current one
+    MtlValues values_;                                ///< of the current material
+    std::map<std::string_view, std::size_t> places_;  ///< of the current material: offsets by keyword
+    std::size_t definedAt_ = 0;                       ///< offset of the current material
+    std::optional<TextProblem> tooLarge_;             ///< a colour of the current material that is too large
     bool inMaterial_ = false, anyMaterial_ = false;
 };
 
 }  // namespace
 
-MaterialLibrary loadMtl(const std::filesystem::path& path, Reading reading) {
-    return MtlReader(path, reading).run();
+MaterialLibrary loadMtl(const std::filesystem::path& path, FileFinder& finder, Reading reading) {
+    return MtlReader(path, finder, reading).run();
 }
 
 }  // namespace duolux

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <span>
+#include <iterator>
 #include <utility>
 
 #include "host/base/printable.h"
@@ -14,57 +13,20 @@ namespace duolux {
 
 namespace {
 
-struct Name {
-    std::string_view keyword;
-    std::string_view other;  ///< spelling
-};
+/// Statements that do not affect an image by path tracing.
+constexpr std::string_view kNeutral[] = {"Ka", "sharpness", "map_aat"};
 
-// All statements that begin with "map_" are also textures.
-constexpr Name kTextureNames[] = {
-    {"map_Kd", ""},           {"map_Ks", ""},       {"map_Ke", ""},       {"map_Ns", ""},
-    {"map_d", "map_Tr"},      {"map_Pr", ""},       {"map_Pm", ""},       {"map_Ps", ""},
-    {"map_bump", "map_Bump"}, {"bump", ""},         {"norm", "map_norm"}, {"disp", "map_disp"},
+/// Images that are not used, and another spelling; all other statements that begin with "map_" are too.
+struct ImageName {
+    std::string_view keyword, other;
+};
+constexpr ImageName kUnusedImages[] = {
+    {"map_bump", "map_Bump"}, {"bump", "Bump"},     {"disp", "map_disp"},
     {"decal", "map_decal"},   {"refl", "map_refl"},
 };
 
-constexpr double kOpaque = 0.999;
-
-/// Statements of the physically based extensions; 0 has no effect.
-constexpr std::string_view kShineNames[] = {"Pm", "Ps", "Pc"};
-
-/// Statements that do not affect a diffuse surface, or that are examined below.
-constexpr std::string_view kKnown[] = {"Ka",    "Ks", "Ns",  "Ni",    "d",      "Tr",      "Tf",
-                                       "illum", "Pr", "Pcr", "aniso", "anisor", "map_aat", "sharpness"};
-
 /// The correct spelling of statements with an effect.
-constexpr std::string_view kSpellings[] = {"newmtl", "Kd", "Ke"};
-
-/// Smallest and largest of up to three numbers; empty if the first word is not a number (as in "spectral
-/// FILE").
-struct Range {
-    double smallest, largest;
-};
-std::optional<Range> rangeOf(std::string_view arguments) {
-    if (arguments.starts_with("-halo")) arguments = trimmed(arguments.substr(5));
-    std::optional<Range> range;
-    for (int i = 0; i < 3 && !arguments.empty(); ++i) {
-        const std::string_view word = firstWord(arguments);
-        const auto [past, value] = readNumber(word.data(), word.data() + word.size());
-        if (past != word.data() + word.size() || !std::isfinite(value)) break;
-        if (!range) range = Range{value, value};
-        range = Range{std::min(range->smallest, value), std::max(range->largest, value)};
-        arguments = trimmed(arguments.substr(word.size()));
-    }
-    return range;
-}
-
-bool isOneOf(std::string_view word, std::span<const std::string_view> words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool isTransparent(int illumination) {
-    return illumination == 4 || illumination == 6 || illumination == 7 || illumination == 9;
-}
+constexpr std::string_view kSpellings[] = {"newmtl", "Kd", "Ke", "Ks", "map_Kd", "map_d"};
 
 }  // namespace
 
@@ -76,62 +38,15 @@ void MtlUnused::note(Group group, std::string_view keyword, std::size_t offset) 
         statements_.push_back({group, keyword, offset});
 }
 
-void MtlUnused::add(std::string_view keyword, std::string_view arguments, std::size_t offset) {
-    for (const auto& [name, other] : kTextureNames) {
-        if (keyword == name || keyword == other) return note(kTextures, name, offset);
+void MtlUnused::add(std::string_view keyword, std::size_t offset) {
+    if (std::find(std::begin(kNeutral), std::end(kNeutral), keyword) != std::end(kNeutral)) return;
+    for (const auto& [name, other] : kUnusedImages) {
+        if (keyword == name || keyword == other) return note(kImages, name, offset);
     }
-    if (isOneOf(keyword, kShineNames)) {
-        const std::optional<Range> range = rangeOf(arguments);
-        if (range && range->largest > 0.0) note(kShine, keyword, offset);
-        return;
-    }
-    if (!isOneOf(keyword, kKnown)) {
-        const bool isTexture = lowerCase(keyword.substr(0, 4)) == "map_";
-        return note(isTexture ? kTextures : kUnknown, keyword, offset);
-    }
-    const std::optional<Range> range = rangeOf(arguments);
-    if (!range) return;
-    const std::optional<double> number = range->largest;
-    if (keyword == "d") {
-        values_.dissolve = number;
-        values_.dissolveAt = offset;
-    } else if (keyword == "Tr") {
-        values_.transparency = number;
-        values_.transparencyAt = offset;
-    } else if (keyword == "Tf") {
-        values_.filter = number;
-        values_.filterIsGrey = range->largest == range->smallest && (*number <= 0.0 || *number >= kOpaque);
-        values_.filterAt = offset;
-    } else if (keyword == "Ks") {
-        values_.specular = number;
-        values_.specularAt = offset;
-    } else if (keyword == "illum") {
-        values_.illumination = static_cast<int>(std::clamp(*number, 0.0, 10.0));
-        values_.illuminationAt = offset;
-    }
+    note(lowerCase(keyword.substr(0, 4)) == "map_" ? kImages : kUnknown, keyword, offset);
 }
 
 void MtlUnused::finishMaterial(bool counts) {
-    const Values& v = values_;
-    if (v.dissolve && *v.dissolve < kOpaque) note(kTransparency, "d", v.dissolveAt);
-    // Some programs write Tr 1 together with d 1 for opaque materials; d takes precedence.
-    if (v.transparency && *v.transparency > 1.0 - kOpaque && v.dissolve.value_or(0.0) < kOpaque) {
-        note(kTransparency, "Tr", v.transparencyAt);
-    }
-    // Some programs write Tf 1 1 1 for every material.
-    if (v.filter && (!v.filterIsGrey || (isTransparent(v.illumination) && *v.filter > 0.0))) {
-        note(kTransparency, "Tf", v.filterAt);
-    }
-    if (isTransparent(v.illumination)) {
-        note(kTransparency, "illum", v.illuminationAt);
-    }
-    // Blender writes 0.5 for every material. Models 0 and 1 have no highlights; those above 2 have
-    // reflections.
-    constexpr double kUsual = 0.5;
-    const double specular = v.specular.value_or(0.0);
-    if (v.illumination > 2 ? specular > 0.0 : v.illumination == 2 && specular > kUsual) {
-        note(kShine, "Ks", v.specularAt);
-    }
     if (counts) {
         std::array<bool, kGroups> inGroup{};
         for (const auto& [group, keyword, offset] : statements_) {
@@ -150,13 +65,13 @@ void MtlUnused::finishMaterial(bool counts) {
             ++named->materials;
         }
     }
-    values_ = Values();
     statements_.clear();
 }
 
 void MtlUnused::warn(const SourceText& text, std::vector<std::string>& warnings) const {
-    constexpr const char* kWhat[kGroups] = {"textures are not read", "surfaces are opaque",
-                                            "surfaces are diffuse", "not known"};
+    constexpr const char* kWhat[kGroups] = {"images of these kinds are not used",
+                                            "does not apply to the material",
+                                            "options of images are not used", "not known"};
     for (std::size_t group = 0; group < kGroups; ++group) {
         const Found& found = found_[group];
         if (found.materials == 0) continue;
@@ -170,7 +85,7 @@ void MtlUnused::warn(const SourceText& text, std::vector<std::string>& warnings)
             fmt::format("{}: line {}: {}: {} of {} material{} ha{} no effect", text.file(),
                         text.lineOf(found.first), kWhat[group], names, found.materials,
                         found.materials == 1 ? "" : "s", found.keywords.size() == 1 ? "s" : "ve");
-        if (group == kUnknown) {
+        if (group == kUnknown || group == kImages) {
             for (const std::string_view spelling : kSpellings) {
                 if (lowerCase(found.keywords.front().keyword) == lowerCase(spelling))
                     warning += fmt::format("; did you mean {}?", spelling);

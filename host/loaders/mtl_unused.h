@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,21 +10,27 @@
 
 namespace duolux {
 
-/// Collects the statements of an MTL file that are not supported but would affect the image, or that are
-/// unknown. Default values that exporters write for every material (d 1, illum 2, Ks 0.5) are ignored.
+/// Collects the statements of an MTL file that have no effect but would affect the image, or that are
+/// unknown.
 class MtlUnused {
   public:
-    /// Adds a statement of the current material.
-    void add(std::string_view keyword, std::string_view arguments, std::size_t offset);
+    /// Adds a statement that the reader does not know, of the current material.
+    void add(std::string_view keyword, std::size_t offset);
+    /// Adds a statement that does not apply to the current material.
+    void addInapplicable(std::string_view keyword, std::size_t offset) {
+        note(kInapplicable, keyword, offset);
+    }
+    /// Adds an option of an image of the current material.
+    void addOption(std::string_view option, std::size_t offset) { note(kOptions, option, offset); }
 
     /// Ends the current material; `counts`: whether it is used.
     void finishMaterial(bool counts);
 
-    /// At most four warnings: about textures, transparency, non-diffuse reflection, and unknown statements.
+    /// At most one warning for each kind.
     void warn(const SourceText& text, std::vector<std::string>& warnings) const;
 
   private:
-    enum Group : std::size_t { kTextures, kTransparency, kShine, kUnknown, kGroups };
+    enum Group : std::size_t { kImages, kInapplicable, kOptions, kUnknown, kGroups };
 
     struct Named {
         std::string keyword;
@@ -42,17 +47,9 @@ class MtlUnused {
         std::string_view keyword;
         std::size_t offset;
     };
-    /// Values that the current material specifies.
-    struct Values {
-        std::optional<double> dissolve, transparency, specular, filter;
-        bool filterIsGrey = true;  ///< Tf is 0 or 1 in all channels
-        int illumination = 2;
-        std::size_t dissolveAt = 0, transparencyAt = 0, specularAt = 0, filterAt = 0, illuminationAt = 0;
-    };
 
     void note(Group group, std::string_view keyword, std::size_t offset);
 
-    Values values_;
     std::vector<Statement> statements_;  ///< of the current material
     std::array<Found, kGroups> found_;
 };

@@ -83,6 +83,7 @@ class PartTriangulator {
                 geometry_.materials[triangle] = material;
                 if (!groups_.empty()) groups_[triangle] = smoothing;
                 if (!part_.cornerNormals.empty()) setNormals(triangle, begin, corners);
+                if (!part_.cornerUvs.empty()) setUvs(triangle, begin, corners);
                 ++triangle;
             }
             begin = end;
@@ -116,6 +117,17 @@ class PartTriangulator {
         geometry_.normalIndices[triangle] = normals;
     }
 
+    /// The triangle has no texture coordinates if one of its corners has none or invalid ones.
+    void setUvs(std::size_t triangle, std::uint32_t begin, const std::array<std::uint32_t, 3>& corners) {
+        glm::uvec3 uvs;
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t corner = begin + corners[static_cast<std::size_t>(i)];
+            uvs[i] = corner < part_.cornerUvs.size() ? part_.cornerUvs[corner] : Geometry::kNoUv;
+            if (uvs[i] == Geometry::kNoUv || file_.uvs[uvs[i]] == kBadUv) return;
+        }
+        geometry_.uvIndices[triangle] = uvs;
+    }
+
     const ObjFile& file_;
     const ObjPart& part_;
     const PartStart& start_;
@@ -125,12 +137,24 @@ class PartTriangulator {
     std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 
+/// Invalid texture coordinates, which no triangle has, become 0.
+void takeUvs(std::vector<glm::vec2> uvs, Geometry& geometry) {
+    const auto hasUvs = [](const glm::uvec3& indices) { return indices.x != Geometry::kNoUv; };
+    if (std::none_of(geometry.uvIndices.begin(), geometry.uvIndices.end(), hasUvs)) {
+        geometry.uvIndices.clear();
+        return;
+    }
+    std::replace(uvs.begin(), uvs.end(), kBadUv, glm::vec2(0.0f));
+    geometry.uvs = std::move(uvs);
+}
+
 Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
     std::size_t triangles = 0;
-    bool anyNormal = false, anyGroup = false;
+    bool anyNormal = false, anyGroup = false, anyUv = false;
     for (const ObjPart& part : file.parts) {
         triangles += part.cornerVertices.size() - 2 * part.faceEnds.size();
         anyNormal = anyNormal || !part.cornerNormals.empty();
+        anyUv = anyUv || !part.cornerUvs.empty();
         for (const ObjNotes::Smoothing& change : part.notes.smoothing)
             anyGroup = anyGroup || change.group != 0;
     }
@@ -138,6 +162,7 @@ Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
     geometry.triangles.resize(triangles);
     geometry.materials.resize(triangles);
     if (anyNormal || anyGroup) geometry.normalIndices.assign(triangles, glm::uvec3(Geometry::kNoNormal));
+    if (anyUv) geometry.uvIndices.assign(triangles, glm::uvec3(Geometry::kNoUv));
     std::vector<std::uint32_t> groups(anyGroup ? triangles : 0);
     parallelFor(file.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -149,6 +174,7 @@ Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
     if (anyNormal) geometry.normals = std::move(file.normals);
     if (anyGroup) addSmoothNormals(geometry, groups);
     if (geometry.normals.empty()) geometry.normalIndices.clear();
+    if (anyUv) takeUvs(std::move(file.uvs), geometry);
     return geometry;
 }
 

@@ -67,6 +67,7 @@ void ObjFaceReader::leaveOut(const char* line, std::size_t firstCorner) {
     const bool isShort = part_.cornerVertices.size() - firstCorner < 3;
     part_.cornerVertices.resize(firstCorner);
     part_.cornerNormals.resize(std::min(part_.cornerNormals.size(), firstCorner));
+    part_.cornerUvs.resize(std::min(part_.cornerUvs.size(), firstCorner));
     if (isShort) return;
     complaints_.tolerate(ObjOddity::kBadFace, line, [&] { complaints_.report(*bad_); });
     if (!part_.badFace) part_.badFace = bad_;
@@ -114,14 +115,7 @@ const char* ObjFaceReader::readCorner(const char* corner, const ObjCounts& seen)
         complaints_.tolerate(isOdd ? ObjOddity::kCornerRest : ObjOddity::kTrailingSlash, corner,
                              [&] { complaints_.report(notACorner(corner)); });
     }
-    if (!texture.text.empty() &&
-        !resolve(texture.value, seen.textureCoordinates, target_.total.textureCoordinates)) {
-        complaints_.tolerate(ObjOddity::kTextureIndex, corner, [&] {
-            complaints_.report(corner, indexProblem("texture coordinate", texture.text),
-                               indexRemedy("texture coordinates", texture.value, seen.textureCoordinates,
-                                           target_.total.textureCoordinates));
-        });
-    }
+    addUv(corner, texture, seen);
     addNormal(corner, normal, seen);
     const auto index = resolve(vertex.value, seen.vertices, target_.total.vertices);
     if (!index && !bad_) {
@@ -133,20 +127,34 @@ const char* ObjFaceReader::readCorner(const char* corner, const ObjCounts& seen)
 }
 
 void ObjFaceReader::addNormal(const char* corner, const Index& normal, const ObjCounts& seen) {
-    if (normal.text.empty() && part_.cornerNormals.empty()) return;
-    part_.cornerNormals.resize(part_.cornerVertices.size(), Geometry::kNoNormal);
-    if (normal.text.empty()) {
-        part_.cornerNormals.push_back(Geometry::kNoNormal);
-        return;
-    }
     const auto index = resolve(normal.value, seen.normals, target_.total.normals);
-    if (!index) {
+    if (!normal.text.empty() && !index) {
         complaints_.tolerate(ObjOddity::kNormalIndex, corner, [&] {
             complaints_.report(corner, indexProblem("normal", normal.text),
                                indexRemedy("normals", normal.value, seen.normals, target_.total.normals));
         });
     }
-    part_.cornerNormals.push_back(index.value_or(Geometry::kNoNormal));
+    addOptional(normal.text.empty() ? std::nullopt : index, part_.cornerNormals, Geometry::kNoNormal);
+}
+
+void ObjFaceReader::addUv(const char* corner, const Index& uv, const ObjCounts& seen) {
+    const auto index = resolve(uv.value, seen.textureCoordinates, target_.total.textureCoordinates);
+    if (!uv.text.empty() && !index) {
+        complaints_.tolerate(ObjOddity::kTextureIndex, corner, [&] {
+            complaints_.report(corner, indexProblem("texture coordinate", uv.text),
+                               indexRemedy("texture coordinates", uv.value, seen.textureCoordinates,
+                                           target_.total.textureCoordinates));
+        });
+    }
+    addOptional(uv.text.empty() ? std::nullopt : index, part_.cornerUvs, Geometry::kNoUv);
+}
+
+/// Adds the index of the corner that comes next. Nothing is stored before the first corner that has one.
+void ObjFaceReader::addOptional(std::optional<std::uint32_t> index, std::vector<std::uint32_t>& indices,
+                                std::uint32_t none) const {
+    if (!index && indices.empty()) return;
+    indices.resize(part_.cornerVertices.size(), none);
+    indices.push_back(index.value_or(none));
 }
 
 TextProblem ObjFaceReader::notACorner(const char* corner) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "host/loaders/obj_complaints.h"
 #include "host/loaders/obj_part.h"
@@ -29,6 +30,9 @@ class ObjFaceReader {
     Index readIndex(const char* at) const;
     const char* readCorner(const char* corner, const ObjCounts& seen);
     void addNormal(const char* corner, const Index& normal, const ObjCounts& seen);
+    void addUv(const char* corner, const Index& uv, const ObjCounts& seen);
+    void addOptional(std::optional<std::uint32_t> index, std::vector<std::uint32_t>& indices,
+                     std::uint32_t none) const;
     void leaveOut(const char* line, std::size_t firstCorner);
     TextProblem notACorner(const char* corner) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "host/base/nearest_name.h"
@@ -100,6 +101,7 @@ ObjMaterials::Entry ObjMaterials::entryFor(const std::string& name) const {
         if (found == names.end()) return false;
         entry.material = library.materials[found->second];
         entry.material.name = wanted;
+        entry.library = &library;
         const auto unusable = library.unusable.find(found->second);
         if (unusable != library.unusable.end()) entry.unusable = &unusable->second;
         return true;
@@ -140,12 +142,27 @@ void ObjMaterials::warnOfUndefined(Mesh& mesh, const std::vector<bool>& used) co
     mesh.warnings.push_back(fmt::format("{}: {}: grey 0.8 is used", mesh_.string(), what));
 }
 
+/// Adds the images of a material to the mesh; `indices` are those of the mesh's images.
+void ObjMaterials::moveImages(Entry& entry, std::map<fs::path, std::uint32_t>& indices, Mesh& mesh) {
+    for (MaterialTexture& use : entry.material.textures) {
+        const ImageSource& image = entry.library->images[use.texture.image];
+        const auto [index, isNew] =
+            indices.try_emplace(image.path, static_cast<std::uint32_t>(mesh.images.size()));
+        if (isNew) {
+            mesh.images.push_back(image);
+            mesh.files.push_back(image.path);
+        }
+        use.texture.image = index->second;
+    }
+}
+
 void ObjMaterials::moveTo(Mesh& mesh) {
     const std::vector<bool> used = usedMaterials(mesh.geometry, entries_.size());
     std::move(read_.begin(), read_.end(), std::back_inserter(mesh.files));
     warnOfMissing(mesh);
     std::move(warnings_.begin(), warnings_.end(), std::back_inserter(mesh.warnings));
     warnOfUndefined(mesh, used);
+    std::map<fs::path, std::uint32_t> images;
     std::vector<std::uint32_t> kept(entries_.size(), 0);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         Entry& entry = entries_[i];
@@ -154,6 +171,7 @@ void ObjMaterials::moveTo(Mesh& mesh) {
             continue;
         }
         if (entry.unusable != nullptr) throw InputError(*entry.unusable);
+        moveImages(entry, images, mesh);
         kept[i] = static_cast<std::uint32_t>(mesh.materials.size());
         mesh.materials.push_back(std::move(entry.material));
     }

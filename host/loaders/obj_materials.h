@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,6 +35,7 @@ class ObjMaterials {
   private:
     struct Entry {
         Material material;
+        const MaterialLibrary* library = nullptr;  ///< of its images; null if it has none
         bool isDefined = true;
         const InputError* unusable = nullptr;
     };
@@ -41,6 +43,7 @@ class ObjMaterials {
     std::vector<std::filesystem::path> filesOf(std::string_view names);
     void noteMissing(std::string_view name);
     Entry entryFor(const std::string& name) const;
+    static void moveImages(Entry& entry, std::map<std::filesystem::path, std::uint32_t>& indices, Mesh& mesh);
     void warnOfMissing(Mesh& mesh);
     void warnOfUndefined(Mesh& mesh, const std::vector<bool>& used) const;
 

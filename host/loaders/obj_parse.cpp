@@ -140,13 +140,15 @@ ObjFile parseObj(const SourceText& text, Reading reading) {
     std::vector<Stretch> stretches = splitAtLines(text.view());
     const ObjCounts total = countAll(text.view(), stretches);
     constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-    if (total.vertices > kMost || total.normals > kMost || total.faces > kMost) {
+    if (total.vertices > kMost || total.normals > kMost || total.textureCoordinates > kMost ||
+        total.faces > kMost) {
         throw InputError(text.file(), "", "is too large", "expected fewer than 2^31 vertices and faces");
     }
 
     ObjFile file;
     std::vector<glm::dvec3> positions(total.vertices);
     file.normals.resize(total.normals);
+    file.uvs.resize(total.textureCoordinates);
     file.parts.resize(stretches.size());
     std::vector<std::optional<TextProblem>> problems(stretches.size());
     parallelFor(stretches.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -156,7 +158,7 @@ ObjFile parseObj(const SourceText& text, Reading reading) {
             part.offset = stretch.begin;
             part.faceEnds.reserve(stretch.counts.faces);
             part.cornerVertices.reserve(3 * stretch.counts.faces);
-            const ObjPartTarget target{positions, file.normals, stretch.before, total};
+            const ObjPartTarget target{positions, file.normals, file.uvs, stretch.before, total};
             problems[i] = readObjPart(text.view().substr(stretch.begin, stretch.end - stretch.begin), target,
                                       reading, part);
         }

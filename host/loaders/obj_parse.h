@@ -14,6 +14,7 @@ namespace duolux {
 struct ObjFile {
     RoundedPositions rounded;
     std::vector<glm::vec3> normals;  ///< unit, or zero if the file's normal is invalid
+    std::vector<glm::vec2> uvs;      ///< v down the image, or kBadUv
     std::vector<ObjPart> parts;      ///< in the order of the file
     Tally<ObjOddity> oddities;       ///< of all parts
 };

@@ -102,13 +102,19 @@ class PartReader {
     void readTexture(const char* line, const char* arguments) {
         const char* const remedy = "expected \"vt u v\"";
         const ObjNumbers numbers = readObjNumbers(arguments, end_);
-        ++seen_.textureCoordinates;
+        glm::vec2& uv = target_.uvs[seen_.textureCoordinates++];
+        uv = kBadUv;
         const char* const wrong = numbers.wrong() != nullptr ? numbers.wrong() : numbers.oddExtra;
         if (wrong != nullptr) {
             complaints_.tolerate(ObjOddity::kTexture, line, [&] { complaints_.reportNumber(wrong, remedy); });
         } else if (numbers.count < 1 || numbers.count > 3) {
             complaints_.tolerate(ObjOddity::kTexture, line,
                                  [&] { complaints_.reportCount(line, numbers.count, remedy); });
+        } else if (uv = uvFromBelow(numbers.values.x, numbers.values.y); uv == kBadUv) {
+            complaints_.tolerate(ObjOddity::kTexture, line, [&] {
+                complaints_.report(line, "a texture coordinate is too large",
+                                   fmt::format("expected at most {:g} in magnitude", kLargestUv));
+            });
         }
     }
 

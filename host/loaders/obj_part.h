@@ -12,6 +12,7 @@
 #include "host/loaders/obj_statements.h"
 #include "host/loaders/source_text.h"
 #include "host/loaders/tally.h"
+#include "host/loaders/uv_range.h"
 
 namespace duolux {
 
@@ -33,17 +34,19 @@ struct ObjPart {
     std::vector<std::uint32_t> faceEnds;        ///< per face: index past its last corner
     std::vector<std::uint32_t> cornerVertices;  ///< per corner, into the vertices of the file
     std::vector<std::uint32_t> cornerNormals;   ///< per corner, into the normals of the file or kNoNormal;
-                                                ///< empty if no corner has one
+                                                ///< may end early, at the last corner with one
+    std::vector<std::uint32_t> cornerUvs;       ///< the same of texture coordinates; kNoUv
     std::vector<MaterialChange> materials;
     std::vector<BadVertex> badVertices;
     std::optional<TextProblem> badFace;  ///< the first face that is left out because of its vertices
     ObjNotes notes;
 };
 
-/// The destination of the vertices and normals of one part.
+/// The destination of the vertices, normals and texture coordinates of one part.
 struct ObjPartTarget {
     std::span<glm::dvec3> positions;  ///< of the whole file
     std::span<glm::vec3> normals;     ///< of the whole file: unit, or zero if invalid
+    std::span<glm::vec2> uvs;         ///< of the whole file, v down the image; kBadUv if invalid
     ObjCounts before;                 ///< statements of the file before the part
     ObjCounts total;                  ///< of the whole file
 };

@@ -1,7 +1,6 @@
 #include "host/loaders/ply.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,10 +16,12 @@
 
 #include "host/base/error.h"
 #include "host/base/file.h"
-#include "host/base/srgb.h"
+#include "host/base/printable.h"
+#include "host/loaders/file_finder.h"
 #include "host/loaders/ply_body.h"
 #include "host/loaders/ply_header.h"
 #include "host/loaders/ply_oddities.h"
+#include "host/loaders/ply_vertices.h"
 #include "host/loaders/rounding.h"
 #include "host/loaders/tally.h"
 #include "host/loaders/triangulate.h"
@@ -36,9 +37,10 @@ constexpr std::size_t kMostCorners = std::numeric_limits<std::int32_t>::max();
 /// Loads one file.
 class PlyLoader {
   public:
-    PlyLoader(const fs::path& path, Reading reading)
+    PlyLoader(const fs::path& path, MaterialFiles& files)
         : path_(path),
-          strict_(reading == Reading::kStrict),
+          files_(files),
+          strict_(files.reading() == Reading::kStrict),
           bytes_(readFile(path)),
           header_(readPlyHeader(path, bytes_)),
           body_(path_, bytes_, header_) {
@@ -65,9 +67,7 @@ class PlyLoader {
         if (ends_.empty()) failWithoutFaces();
         settlePositions();
         triangulateFaces();
-        mesh_.materials.emplace_back();
-        mesh_.materials.back().name = kDefaultMaterialName;
-        if (!mesh_.geometry.colours.empty()) mesh_.materials.back().baseColor = glm::vec3(1.0f);
+        setMaterial();
         oddities_.countOverlongLines(body_.overlongItems());
         oddities_.warn(path_, header_, mesh_.warnings);
         return std::move(mesh_);
@@ -89,107 +89,25 @@ class PlyLoader {
         return *element;
     }
 
-    /// The indices of three properties; empty unless all are there and none is a list.
-    std::optional<std::array<std::size_t, 3>> triple(const PlyElement& element,
-                                                     const std::array<std::string_view, 3>& names) const {
-        std::array<std::size_t, 3> found{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto index = element.find(names[i]);
-            if (!index || element.properties[*index].isList()) return std::nullopt;
-            found[i] = *index;
-        }
-        return found;
-    }
-
-    void noteUnused(const PlyElement& element, const std::vector<bool>& used) {
-        for (std::size_t i = 0; i < used.size(); ++i) {
-            if (!used[i]) oddities_.noteUnused(element, element.properties[i]);
-        }
-    }
-
     void readVertices(const PlyElement& element) {
-        const auto position = triple(element, {"x", "y", "z"});
-        if (!position) {
-            throw InputError(path_.string(), "element vertex", "has no coordinates",
-                             "expected the properties x, y and z, which are no lists");
-        }
-        const auto normal = triple(element, {"nx", "ny", "nz"});
-        const std::size_t count = element.properties.size();
-        std::vector<bool> used(count, false);
-        // Where each property goes in `values`.
-        std::vector<std::size_t> slots(count, kSkipped);
-        const auto assign = [&](const auto& indices, std::size_t first) {
-            if (!indices) return;
-            for (std::size_t i = 0; i < 3; ++i) {
-                slots[(*indices)[i]] = first + i;
-                used[(*indices)[i]] = true;
-            }
-        };
-        assign(position, kPosition);
-        assign(normal, kNormal);
-        const auto colour = colourOf(element);
-        assign(colour, kColour);
-        const std::optional<std::size_t> alpha = colour ? element.find("alpha") : std::nullopt;
-        if (alpha && !element.properties[*alpha].isList()) {
-            slots[*alpha] = kAlpha;
-            used[*alpha] = true;
-        }
-        noteUnused(element, used);
-
-        positions_.reserve(element.count);
-        if (normal) mesh_.geometry.normals.reserve(element.count);
-        if (colour) mesh_.geometry.colours.reserve(element.count);
-        std::array<double, kSlots> values{};
-        values[kAlpha] = 1.0;
-        for (std::uint64_t vertex = 0; vertex < element.count; ++vertex) {
-            body_.beginItem();
-            for (std::size_t i = 0; i < count; ++i) {
-                const PlyProperty& property = element.properties[i];
-                if (slots[i] == kSkipped) {
-                    body_.skip(property);
-                } else {
-                    const double value = body_.value(property.type);
-                    values[slots[i]] = slots[i] < kColour ? value : value / unitOf(property.type);
-                }
-            }
-            body_.endItem();
-            positions_.emplace_back(values[kPosition], values[kPosition + 1], values[kPosition + 2]);
-            if (normal) addNormal({values[kNormal], values[kNormal + 1], values[kNormal + 2]});
-            if (colour)
-                addColour({values[kColour], values[kColour + 1], values[kColour + 2]}, values[kAlpha]);
-        }
+        PlyVertices vertices = readPlyVertices(element, body_, strict_, oddities_);
+        positions_ = std::move(vertices.positions);
+        mesh_.geometry.normals = std::move(vertices.normals);
+        mesh_.geometry.colours = std::move(vertices.colours);
+        takeAlphas(std::move(vertices.alphas));
+        vertexUvs_ = std::move(vertices.uvs);
     }
 
-    void addNormal(const glm::dvec3& normal) {
-        const double length = glm::length(normal);
-        const bool isGood = length > 0.0 && std::isfinite(length);
-        if (!isGood) {
-            tolerate(PlyOddity::kNormal, "the normal is 0 or not finite", "expected a direction");
+    /// Keeps them if they matter.
+    void takeAlphas(std::vector<float> alphas) {
+        const auto isOpaque = [](float alpha) { return alpha == 1.0f; };
+        if (std::all_of(alphas.begin(), alphas.end(), isOpaque)) return;
+        if (std::all_of(alphas.begin(), alphas.end(), [](float alpha) { return alpha == 0.0f; })) {
+            mesh_.warnings.push_back(
+                fmt::format("{}: all vertices have alpha 0: alpha is ignored", path_.string()));
+            return;
         }
-        mesh_.geometry.normals.push_back(isGood ? glm::vec3(normal / length) : glm::vec3(0.0f));
-    }
-
-    std::optional<std::array<std::size_t, 3>> colourOf(const PlyElement& element) const {
-        constexpr std::array<std::array<std::string_view, 3>, 3> kNames{
-            {{"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}}};
-        for (const auto& names : kNames) {
-            if (const auto found = triple(element, names)) return found;
-        }
-        return std::nullopt;
-    }
-
-    /// `colour`: encoded by the transfer function of sRGB.
-    void addColour(const glm::dvec3& colour, double alpha) {
-        glm::vec3 linear;
-        bool isGood = true;
-        for (int i = 0; i < 3; ++i) {
-            isGood = isGood && colour[i] >= 0.0 && colour[i] <= 1.0;
-            // Also 0 for what is not a number.
-            linear[i] = colour[i] > 0.0 ? static_cast<float>(srgbDecode(std::min(colour[i], 1.0))) : 0.0f;
-        }
-        if (!isGood) tolerate(PlyOddity::kColour, "a colour is not between 0 and 1", "expected 0 to 1");
-        if (alpha < 1.0) oddities_.count(PlyOddity::kAlpha, [&] { return body_.place(); });
-        mesh_.geometry.colours.push_back(linear);
+        mesh_.geometry.alphas = std::move(alphas);
     }
 
     static std::optional<std::size_t> findCorners(const PlyElement& element) {
@@ -207,22 +125,57 @@ class PlyLoader {
             throw InputError(path_.string(), "element face", "has no corners",
                              "expected a property such as \"list uchar int vertex_indices\"");
         }
-        std::vector<bool> used(element.properties.size(), false);
-        used[*corners] = true;
-        noteUnused(element, used);
+        const auto uvs = findCornerUvs(element);
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            // The number of a texture is that of the only one.
+            const bool isNeutral = element.properties[i].name == "texnumber" && header_.textures.size() <= 1;
+            if (i != *corners && i != uvs && !isNeutral) oddities_.noteUnused(element, element.properties[i]);
+        }
         ends_.reserve(element.count);
         corners_.reserve(3 * element.count);
+        std::vector<double> numbers;
         for (std::uint64_t face = 0; face < element.count; ++face) {
+            const std::size_t firstCorner = corners_.size();
             body_.beginItem();
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 if (i == *corners) {
                     readCorners(element.properties[i], vertexCount);
+                } else if (i == uvs) {
+                    readNumbers(element.properties[i], numbers);
                 } else {
                     body_.skip(element.properties[i]);
                 }
             }
+            if (uvs) addCornerUvs(corners_.size() - firstCorner, numbers);
             body_.endItem();
         }
+    }
+
+    /// Texture coordinates of the corners of each face, as MeshLab writes them.
+    static std::optional<std::size_t> findCornerUvs(const PlyElement& element) {
+        const auto found = element.find("texcoord");
+        return found && element.properties[*found].isList() ? found : std::nullopt;
+    }
+
+    void readNumbers(const PlyProperty& list, std::vector<double>& numbers) {
+        numbers.resize(body_.listLength(list));
+        for (double& number : numbers)
+            number = body_.value(list.type);
+    }
+
+    /// `numbers`: u and v of all corners of the face. Nothing is added for a face that is left out.
+    void addCornerUvs(std::size_t corners, const std::vector<double>& numbers) {
+        bool isGood = numbers.size() == 2 * corners;
+        for (std::size_t i = 0; i < corners; ++i) {
+            const glm::vec2 uv =
+                numbers.size() == 2 * corners ? uvFromBelow(numbers[2 * i], numbers[2 * i + 1]) : kBadUv;
+            isGood = isGood && uv != kBadUv;
+            cornerUvs_.push_back(uv);
+        }
+        if (corners == 0 || isGood) return;
+        tolerate(PlyOddity::kFaceUv,
+                 "the texture coordinates are not two numbers for each corner, or too large",
+                 "expected u and v of each corner");
     }
 
     void readCorners(const PlyProperty& list, std::uint64_t vertexCount) {
@@ -304,13 +257,63 @@ class PlyLoader {
             for (std::uint32_t i = begin; i < end; ++i)
                 polygon.push_back(geometry.positions[corners_[i]]);
             triangulate(polygon, cut);
-            for (const auto& [a, b, c] : cut)
+            for (const auto& [a, b, c] : cut) {
                 geometry.triangles.emplace_back(corners_[begin + a], corners_[begin + b],
                                                 corners_[begin + c]);
+                if (!cornerUvs_.empty()) geometry.uvIndices.emplace_back(begin + a, begin + b, begin + c);
+            }
             begin = end;
         }
         geometry.materials.assign(geometry.triangles.size(), 0);
+        setUvs();
         if (!geometry.normals.empty()) setNormals();
+    }
+
+    /// Those of corners come before those of vertices. A triangle has none if one of its corners has none.
+    void setUvs() {
+        Geometry& geometry = mesh_.geometry;
+        if (cornerUvs_.empty() && vertexUvs_.empty()) return;
+        if (cornerUvs_.empty()) geometry.uvIndices = geometry.triangles;
+        geometry.uvs = std::move(cornerUvs_.empty() ? vertexUvs_ : cornerUvs_);
+        for (glm::uvec3& indices : geometry.uvIndices) {
+            for (int k = 0; k < 3; ++k) {
+                if (geometry.uvs[indices[k]] != kBadUv) continue;
+                indices = glm::uvec3(Geometry::kNoUv);
+                break;
+            }
+        }
+        std::replace(geometry.uvs.begin(), geometry.uvs.end(), kBadUv, glm::vec2(0.0f));
+    }
+
+    void setMaterial() {
+        Material material;
+        material.name = kDefaultMaterialName;
+        if (!mesh_.geometry.colours.empty()) material.baseColor = glm::vec3(1.0f);
+        if (!mesh_.geometry.alphas.empty()) material.alpha.mode = AlphaMode::kBlend;
+        if (!header_.textures.empty()) setTextureOf(material);
+        mesh_.materials.push_back(std::move(material));
+    }
+
+    void setTextureOf(Material& material) {
+        const std::string& name = header_.textures.front();
+        if (header_.textures.size() > 1) {
+            mesh_.warnings.push_back(fmt::format("{}: names {} textures: only the first one is used",
+                                                 path_.string(), header_.textures.size()));
+        }
+        const auto file = files_.finder().find(path_.parent_path(), name, kImageNames);
+        if (!file) {
+            const std::string problem = fmt::format("there is no texture {}", inQuotes(name));
+            if (strict_) throw InputError(path_.string(), "", problem, "expected the path of an image");
+            mesh_.warnings.push_back(
+                fmt::format("{}: {}: the material is without it", path_.string(), problem));
+            return;
+        }
+        material.baseColor = glm::vec3(1.0f);
+        MaterialTexture texture;
+        texture.texture.colourSpace = ColourSpace::kSrgb;
+        material.textures.push_back(texture);
+        mesh_.images.push_back({file->string(), *file, nullptr});
+        mesh_.files.push_back(*file);
     }
 
     /// A triangle is flat if one of its corners has no valid normal.
@@ -329,26 +332,24 @@ class PlyLoader {
         oddities_.count(oddity, [&] { return body_.place(); });
     }
 
-    /// Of the values of a vertex.
-    static constexpr std::size_t kPosition = 0, kNormal = 3, kColour = 6, kAlpha = 9, kSlots = 10,
-                                 kSkipped = kSlots;
-
     const fs::path path_;
+    MaterialFiles& files_;
     const bool strict_;
     const std::string bytes_;
     const PlyHeader header_;
     PlyBody body_;
     Mesh mesh_;
     std::vector<glm::dvec3> positions_;
-    std::vector<std::uint32_t> ends_, corners_;  ///< see PolygonView
-    std::optional<InputError> badFace_;          ///< the first that is left out because of its vertices
+    std::vector<std::uint32_t> ends_, corners_;     ///< see PolygonView
+    std::vector<glm::vec2> vertexUvs_, cornerUvs_;  ///< v down the image, or kBadUv; may be empty
+    std::optional<InputError> badFace_;             ///< the first that is left out because of its vertices
     PlyOddities oddities_;
 };
 
 }  // namespace
 
 Mesh loadPly(const fs::path& path, MaterialFiles& files) {
-    return PlyLoader(path, files.reading()).run();
+    return PlyLoader(path, files).run();
 }
 
 }  // namespace duolux

@@ -35,6 +35,7 @@ class PlyBody {
     /// The number of items that are followed by further words on their line.
     std::uint64_t overlongItems() const { return overlongItems_; }
 
+    std::string file() const { return path_.string(); }
     /// The current item, with its line in a text: "line 12 (vertex 3 of 8)". Takes time.
     std::string place() const;
     /// An error in the current item.

@@ -48,7 +48,8 @@ class HeaderReader {
             } else if (keyword == "property") {
                 readProperty();
             } else if (keyword == "comment") {
-                header_.namesTexture = header_.namesTexture || trimmed(rest_).starts_with("TextureFile");
+                if (takeWord() == "TextureFile" && !trimmed(rest_).empty())
+                    header_.textures.emplace_back(trimmed(rest_));
             } else if (!keyword.empty() && keyword != "obj_info" && !header_.unknownLine) {
                 header_.unknownLine = keyword;
             }

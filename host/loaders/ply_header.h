@@ -36,7 +36,7 @@ struct PlyHeader {
     std::vector<PlyElement> elements;  ///< with unique names
     std::size_t bodyOffset = 0;        ///< bytes before the first element
     std::size_t lines = 0;
-    bool namesTexture = false;               ///< by a comment, as VCG and MeshLab write
+    std::vector<std::string> textures;       ///< named by comments, as VCG and MeshLab write
     std::optional<std::string> unknownLine;  ///< the first with an unknown keyword
 
     const PlyElement* find(std::string_view element) const;

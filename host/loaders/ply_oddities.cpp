@@ -18,7 +18,10 @@ constexpr OddityText<PlyOddity> kPlyOddities[] = {
     {PlyOddity::kUnusedVertex, "a vertex that is not finite or too large", "no face uses it"},
     {PlyOddity::kNormal, "a normal that is 0 or not finite", "the faces at this vertex are flat"},
     {PlyOddity::kColour, "a colour that is not between 0 and 1", "clamped"},
-    {PlyOddity::kAlpha, "a vertex that is not opaque", "alpha is ignored"},
+    {PlyOddity::kUv, "a texture coordinate that is not finite or too large",
+     "the faces at this vertex have none"},
+    {PlyOddity::kFaceUv, "a face whose texture coordinates are not two numbers for each corner, or too large",
+     "it has none"},
 };
 
 }  // namespace
@@ -51,7 +54,6 @@ void PlyOddities::warn(const std::filesystem::path& path, const PlyHeader& heade
         warnings.push_back(fmt::format("{}: not supported and ignored: {}{}", file, fmt::join(unused, ", "),
                                        hidden == 0 ? "" : fmt::format(" and {} more", hidden)));
     }
-    if (header.namesTexture) warnings.push_back(fmt::format("{}: textures are not supported", file));
     if (header.unknownLine) {
         warnings.push_back(
             fmt::format("{}: {} in the header is unknown: ignored", file, inQuotes(*header.unknownLine)));

@@ -12,7 +12,7 @@
 namespace duolux {
 
 /// Errors that do not prevent a PLY file from being loaded.
-enum class PlyOddity { kShortFace, kBadFace, kUnusedVertex, kNormal, kColour, kAlpha, kCount };
+enum class PlyOddity { kShortFace, kBadFace, kUnusedVertex, kNormal, kColour, kUv, kFaceUv, kCount };
 
 /// What is odd about a PLY file, for one warning of each kind.
 class PlyOddities {
@@ -30,7 +30,7 @@ class PlyOddities {
     /// Lines of a text that have more numbers than their element has properties.
     void countOverlongLines(std::uint64_t lines) { overlongLines_ = lines; }
 
-    /// Adds the warnings, including those about the header alone: unknown elements and lines, textures.
+    /// Adds the warnings, including those about the header alone: unknown elements and lines.
     void warn(const std::filesystem::path& path, const PlyHeader& header,
               std::vector<std::string>& warnings) const;
 

@@ -9,8 +9,10 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/loaders/json_scene.h"
+#include "host/loaders/missing_uvs.h"
 #include "host/loaders/obj.h"
 #include "host/loaders/ply.h"
+#include "host/loaders/stl.h"
 #include "host/scene/compose.h"
 
 namespace duolux {
@@ -23,7 +25,7 @@ struct MeshFormat {
     std::string_view extension;
     Mesh (*load)(const fs::path& path, MaterialFiles& files);
 };
-constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}};
+constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}, {".stl", loadStl}};
 
 constexpr std::string_view kJsonExtension = ".json";
 
@@ -54,12 +56,13 @@ SceneFile readMeshScene(const fs::path& path, Reading reading) {
     MaterialFiles files(reading);
     Mesh mesh = loadMesh(path, files);
     setOrigin(scene, mesh.origin);
+    const CameraChoice camera = mesh.camera;
     appendMesh(scene, std::move(mesh));
     if (scene.geometry.triangles.empty()) {
         throw InputError(path.string(), "", "every triangle has zero area", "expected triangles with area");
     }
     const std::size_t triangles = scene.geometry.triangles.size();
-    return {std::move(scene), {}, triangles, false, false};
+    return {std::move(scene), camera, triangles, false, false};
 }
 
 }  // namespace
@@ -91,7 +94,9 @@ void requireScenePath(const fs::path& path) {
 
 SceneFile readSceneFile(const fs::path& path, Reading reading) {
     requireScenePath(path);
-    return isMeshPath(path) ? readMeshScene(path, reading) : readJsonScene(path, reading);
+    SceneFile file = isMeshPath(path) ? readMeshScene(path, reading) : readJsonScene(path, reading);
+    warnOfMissingUvs(file.scene);
+    return file;
 }
 
 }  // namespace duolux

@@ -13,4 +13,10 @@ namespace duolux {
 /// Geometry::normalIndices must have one entry per triangle.
 void addSmoothNormals(Geometry& geometry, std::span<const std::uint32_t> groups);
 
+/// Computes shading normals for all triangles, smooth across edges where the normals of both triangles differ
+/// by less than `crease` degrees: at each vertex the mean, weighted as above, over the triangles around it
+/// that such edges connect. Triangles that stand alone at all their corners stay flat. There must be no
+/// normals yet.
+void addNormalsByAngle(Geometry& geometry, double crease);
+
 }  // namespace duolux

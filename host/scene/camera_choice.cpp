@@ -5,8 +5,10 @@ namespace duolux {
 CameraChoice CameraChoice::overriddenBy(const CameraChoice& other) const {
     CameraChoice result = *this;
     // A camera with a further part does not compile until the part is added here.
-    auto& [position0, target0, up0, vfov0, type0, height0] = result;
-    const auto& [position1, target1, up1, vfov1, type1, height1] = other;
+    auto& [position0, target0, up0, vfov0, type0, height0, upwards0] = result;
+    const auto& [position1, target1, up1, vfov1, type1, height1, upwards1] = other;
+    static_cast<void>(upwards0);  // is a property of the scene
+    static_cast<void>(upwards1);
     const auto take = [](auto& part, const auto& overriding) {
         if (overriding) part = overriding;
     };

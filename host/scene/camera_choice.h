@@ -13,9 +13,10 @@ struct CameraChoice {
     std::optional<glm::dvec3> position, target, up;
     std::optional<float> vfov;
     std::optional<CameraType> type;
-    std::optional<float> height;  ///< of an orthographic image, in scene units
+    std::optional<float> height;        ///< of an orthographic image, in scene units
+    glm::dvec3 upwards{0.0, 1.0, 0.0};  ///< up in the scene, where `up` is not specified; not 0
 
-    /// This choice with the parts of `other` taking precedence.
+    /// This choice with the specified parts of `other` taking precedence.
     CameraChoice overriddenBy(const CameraChoice& other) const;
     bool complete() const { return position && target; }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/camera_choice.h"
 #include "host/scene/scene.h"
 
 namespace duolux {
@@ -18,6 +19,7 @@ struct Mesh {
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
     std::vector<Material> materials;  ///< used by faces; Texture::image is an index into `images`
     std::vector<ImageSource> images;
+    CameraChoice camera;  ///< the camera of the file; nothing is specified if it has none
     std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face uses
     std::vector<std::string> warnings;
     std::uint64_t bytes = 0;  ///< size of the file

@@ -16,7 +16,6 @@ namespace {
 
 constexpr float kDefaultVfov = 40.0f;
 constexpr double kMargin = 1.05;
-const glm::dvec3 kUp(0.0, 1.0, 0.0);
 
 /// Points that are all in view only if everything framed is: all corners, or the outermost ones in many
 /// directions.
@@ -69,7 +68,7 @@ class Framer {
           surface_(surface),
           samples_(samples),
           aspect_(aspect),
-          axes_(choice.up.value_or(kUp)),
+          axes_(choice.up.value_or(choice.upwards)),
           corners_(cornersOf(surface)),
           outermost_(outermost(corners_)) {
         glm::dvec3 lower(1e300), upper(-1e300);
@@ -333,7 +332,7 @@ class Framer {
 }  // namespace
 
 Camera completeCamera(const CameraChoice& choice) {
-    const ViewAxes axes(choice.up.value_or(kUp));
+    const ViewAxes axes(choice.up.value_or(choice.upwards));
     Camera camera;
     camera.position = glm::vec3(*choice.position);
     camera.target = glm::vec3(*choice.target);

@@ -28,8 +28,8 @@ struct SceneChoices {
     Reading reading = Reading::kLenient;
 };
 
-/// Loads a scene by its extension: .obj (with its MTL) or .ply, both with reflectance `global`, or .json (the
-/// scene format).
+/// Loads a scene by its extension: a mesh such as .obj (with its MTL), with the reflectance `global`, or .json
+/// (the scene format).
 /// Values that neither the file nor the caller specifies are chosen automatically: missing parts of the
 /// camera, a lamp, and 16 bounces, or kBouncesOfGrowth if light may grow with every bounce. A lamp and
 /// kBouncesOfGrowth are reported in the scene's warnings. Throws InputError.

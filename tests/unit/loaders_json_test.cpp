@@ -301,8 +301,8 @@ TEST_F(JsonTest, ObjectsAreChecked) {
     EXPECT_THAT(error("{}"), HasSubstr("objects: is an object; expected an array"));
     EXPECT_THAT(error("[{}]"), HasSubstr("objects[0]: \"mesh\" is missing"));
     EXPECT_THAT(error(R"([{"mesh": "none.obj"}])"), HasSubstr("objects[0].mesh: there is no file none.obj"));
-    EXPECT_THAT(error(R"([{"mesh": "mesh.stl"}])"),
-                HasSubstr("objects[0].mesh: is \"mesh.stl\"; expected the path of an .obj"));
+    EXPECT_THAT(error(R"([{"mesh": "mesh.fbx"}])"),
+                HasSubstr("objects[0].mesh: is \"mesh.fbx\"; expected the path of an .obj"));
     const auto transform = [&](const std::string& numbers) {
         return error(R"([{"mesh": "mesh.obj", "transform": [)" + numbers + "]}]");
     };

@@ -56,8 +56,8 @@ TEST_F(LenientTest, NormalsAndTextureCoordinatesThatAreNoNumbers) {
             "vn nan 0 0\nvn 0 1\nvn 0 0 x\nvn 0 0 1 0\nvt\nvt u v\nvt 0 -1.#IND\nvt 1 2 3 4\nf 1 2 3\n"),
         ElementsAre(HasSubstr("line 8: more numbers than the statement has: the last"),
                     HasSubstr("line 5: a normal that is not three finite numbers (and 2 more): "),
-                    HasSubstr("line 9: a texture coordinate that is not one to three finite numbers "
-                              "(and 3 more): it is not used")));
+                    HasSubstr("line 9: a texture coordinate that is not one to three finite numbers, "
+                              "or too large (and 3 more): triangles that name it have none")));
 }
 
 TEST_F(LenientTest, TextureCoordinatesAreNotUsed) {

@@ -13,7 +13,10 @@ using testing::StartsWith;
 
 class MtlTest : public SceneFiles {
   protected:
-    MaterialLibrary load(std::string_view text) const { return loadMtl(write("m.mtl", text)); }
+    MaterialLibrary load(std::string_view text) const {
+        FileFinder finder;
+        return loadMtl(write("m.mtl", text), finder);
+    }
 
     std::string errorOfMtl(std::string_view text) const {
         write("m.mtl", text);
@@ -56,14 +59,18 @@ TEST_F(MtlTest, ReflectingMoreThanAllIsAWarning) {
     EXPECT_THAT(library.warnings, ElementsAre(HasSubstr("m.mtl: line 2: Kd of \"a\" is above 1")));
 }
 
-TEST_F(MtlTest, SecondDefinitionAndTexturesAreWarnings) {
-    const MaterialLibrary library = load("newmtl a\nKd 1 0 0\nmap_Kd -s 2 2 wood.png\nnewmtl a\nKd 0 1 0\n");
-    ASSERT_EQ(library.materials.size(), 1u);
+TEST_F(MtlTest, SecondDefinitionAndMissingImagesAreWarnings) {
+    const MaterialLibrary library = load(
+        "newmtl a\nKd 1 0 0\nmap_Kd -s 2 2 wood.png\nnewmtl a\nKd 0 1 0\nnewmtl b\nmap_Kd tex\\stone.png\n");
+    ASSERT_EQ(library.materials.size(), 2u);
     EXPECT_EQ(library.materials[0].baseColor, glm::vec3(1, 0, 0));
+    EXPECT_THAT(library.materials[0].textures, IsEmpty());
     EXPECT_THAT(
         library.warnings,
-        ElementsAre(HasSubstr("m.mtl: line 4: material \"a\" is defined again: the first one counts"),
-                    HasSubstr("m.mtl: line 3: textures are not read: map_Kd of 1 material has no effect")));
+        ElementsAre(
+            HasSubstr("m.mtl: line 4: material \"a\" is defined again: the first one counts"),
+            HasSubstr(
+                "m.mtl: line 3: there is no image \"wood.png\" (and 1 more): materials are without it")));
 }
 
 TEST_F(MtlTest, StrictErrorsNameTheLine) {
@@ -79,6 +86,16 @@ TEST_F(MtlTest, StrictErrorsNameTheLine) {
     EXPECT_THAT(errorOfMtl("newmtl a\nKe 1e300 0 0\n"), StartsWith("m.mtl: line 2: Ke: too large"));
     EXPECT_THAT(errorOfMtl("Kd 1 1 1\nnewmtl a\n"), StartsWith("m.mtl: line 1: Kd before any newmtl"));
     EXPECT_THAT(errorOfMtl("newmtl\nKd 1 1 1\n"), StartsWith("m.mtl: line 1: names no material"));
+    EXPECT_EQ(errorOfMtl("newmtl a\nNs shiny\n"),
+              "m.mtl: line 2: Ns: \"shiny\" is not a finite number; expected \"Ns NUMBER\"");
+    EXPECT_EQ(errorOfMtl("newmtl a\nd 1.5\n"), "m.mtl: line 2: d: out of range; expected 0 to 1");
+    EXPECT_EQ(errorOfMtl("newmtl a\nKs 2 0 0\n"), "m.mtl: line 2: Ks: out of range; expected 0 to 1");
+    EXPECT_EQ(
+        errorOfMtl("newmtl a\nmap_Kd none.png\n"),
+        "m.mtl: line 2: there is no image \"none.png\"; expected the path of an image, relative to the MTL "
+        "file");
+    EXPECT_EQ(errorOfMtl("newmtl a\nmap_Kd -s 2 2\n"),
+              "m.mtl: line 2: map_Kd names no image; expected \"map_Kd FILE\"");
 }
 
 TEST_F(MtlTest, ColoursThatAreNotThreeNumbersAreReadAsTheyCanBe) {
@@ -116,18 +133,29 @@ TEST_F(MtlTest, TheStatedLimitOfEmissionIsAccepted) {
                 HasSubstr("Ke: too large; expected numbers from 0 to 1e+12"));
 }
 
-TEST_F(MtlTest, NamesWhatWouldChangeThePicture) {
+TEST_F(MtlTest, ValuesThatAreWrongAreOneWarningAKind) {
+    const MaterialLibrary library = load("newmtl a\nd 1.5\nNs\nTr -1\nPm x\nNi 0\nmap_Kd\nmap_d -clamp on\n");
+    EXPECT_THAT(
+        library.warnings,
+        ElementsAre(HasSubstr("m.mtl: line 3: a value that is not a finite number (and 1 more): read as "),
+                    HasSubstr("m.mtl: line 2: a value out of its range (and 2 more): clamped"),
+                    HasSubstr("m.mtl: line 7: an image without a name (and 1 more): ignored")));
+}
+
+TEST_F(MtlTest, NamesWhatHasNoEffect) {
+    write("a.png", "-");
     const MaterialLibrary library = load(
-        "newmtl glass\nd 0.15\nTr 0.85\nillum 9\nnewmtl leaf\nmap_d a.png\nmap_Ke b.png\nKd 1 1 1\n"
-        "newmtl wall\nmap_d c.png\nnewmtl chrome\nKs 0.9 0.9 0.9\nillum 2\nnewmtl metal\nPm 1\n");
+        "newmtl leaf\nmap_bump a.png\nmap_Ns b.png\nKd 1 1 1\nnewmtl wall\nmap_Bump c.png\nTf 1 0 0\n"
+        "newmtl glass\nd -halo 0.5\nillum 9\nmap_Kd -t 1 1 -mm 0 2 a.png\n");
     EXPECT_THAT(
         library.warnings,
         ElementsAre(
-            HasSubstr(
-                "m.mtl: line 6: textures are not read: map_d (2), map_Ke (1) of 2 materials have no effect"),
-            HasSubstr(
-                "m.mtl: line 2: surfaces are opaque: d (1), Tr (1), illum (1) of 1 material have no effect"),
-            HasSubstr("m.mtl: line 12: surfaces are diffuse: Ks (1), Pm (1) of 2 materials have no effect")));
+            HasSubstr("m.mtl: line 2: images of these kinds are not used: map_bump (2), map_Ns (1) of 2 "
+                      "materials have no effect"),
+            HasSubstr("m.mtl: line 7: does not apply to the material: Tf (1), map_Kd (1) of 2 materials "
+                      "have no effect"),
+            HasSubstr("m.mtl: line 9: options of images are not used: -halo (1), -t (1), -mm (1) of 1 "
+                      "material have no effect")));
 }
 
 TEST_F(MtlTest, NamesStatementsThatItDoesNotKnow) {
@@ -137,9 +165,11 @@ TEST_F(MtlTest, NamesStatementsThatItDoesNotKnow) {
                               "you mean Kd?")));
     EXPECT_THAT(
         load("newmtl a\nMAP_KD a.png\nmap_opacity b.png\nmap_Ka c.png\n").warnings,
-        ElementsAre(HasSubstr("textures are not read: MAP_KD (1), map_opacity (1), map_Ka (1) of 1")));
-    EXPECT_THAT(load("newmtl a\nTf 0.5 0.5 0.5\nnewmtl b\nTf 1 0 0\n").warnings,
-                ElementsAre(HasSubstr("line 2: surfaces are opaque: Tf of 2 materials has no effect")));
+        ElementsAre(HasSubstr("images of these kinds are not used: MAP_KD (1), map_opacity (1), map_Ka (1) "
+                              "of 1 material have no effect; did you mean map_Kd?")));
+    EXPECT_THAT(
+        load("newmtl a\nTf 0.5 0.5 0.5\nnewmtl b\nTf 1 0 0\n").warnings,
+        ElementsAre(HasSubstr("line 2: does not apply to the material: Tf of 2 materials has no effect")));
     std::string many = "newmtl a\n";
     for (int i = 0; i < 100'000; ++i)
         many += fmt::format("word{} 1\n", i);

@@ -225,9 +225,9 @@ TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
 }
 
 TEST_F(ObjTest, OtherExtensionsAreRefused) {
-    write("mesh.stl", kTriangleObj);
-    EXPECT_EQ(errorOf("mesh.stl"),
-              "mesh.stl: has no extension of a scene file; expected .obj, .ply or .json");
+    write("mesh.fbx", kTriangleObj);
+    EXPECT_EQ(errorOf("mesh.fbx"),
+              "mesh.fbx: has no extension of a scene file; expected .obj, .ply, .stl or .json");
     EXPECT_THAT(errorOf("none.obj"), StartsWith("none.obj: cannot open: No such file"));
 }
 

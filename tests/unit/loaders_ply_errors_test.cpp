@@ -40,7 +40,7 @@ TEST_F(PlyTest, HarmlessErrorsAreOneWarningEach) {
     std::string texture = ascii(3, kThree, 1, "3 0 1 2\n");
     texture.insert(texture.find("element"), "comment TextureFile wood.png\nobj_comment no\n");
     EXPECT_THAT(warningsOf(texture),
-                ElementsAre("mesh.ply: textures are not supported",
+                ElementsAre("mesh.ply: there is no texture \"wood.png\": the material is without it",
                             "mesh.ply: \"obj_comment\" in the header is unknown: ignored"));
     EXPECT_THAT(warningsOf(ascii(3, kThree, 1, "3 0 1 2\n")), IsEmpty());
 

@@ -160,14 +160,80 @@ TEST_F(PlyTest, ColoursThatAreNoneAreWarnings) {
         warnings({"red", "green", "blue"}, {"1.5 0 0", "0 nan 0", "1 -1 0"}),
         ElementsAre(
             "mesh.ply: line 13 (vertex 1 of 3): a colour that is not between 0 and 1 (and 2 more): clamped"));
-    EXPECT_THAT(
-        warnings({"red", "green", "blue", "alpha"}, {"0 0 0 1", "0 0 0 0.5", "0 0 0 1"}),
-        ElementsAre("mesh.ply: line 15 (vertex 2 of 3): a vertex that is not opaque: alpha is ignored"));
     EXPECT_THAT(warnings({"red", "green"}, {"0 0", "0 0", "0 0"}),
                 ElementsAre("mesh.ply: not supported and ignored: red of vertex, green of vertex"));
     const Geometry clamped =
         mesh(withProperties("float", {"red", "green", "blue"}, {"1.5 0 0", "0 nan 0", "1 -1 0"})).geometry;
     EXPECT_THAT(clamped.colours, ElementsAre(glm::vec3(1, 0, 0), glm::vec3(0), glm::vec3(1, 0, 0)));
+}
+
+TEST_F(PlyTest, AlphaMattersIfSomeVertexIsNotOpaque) {
+    const std::vector<std::string> names{"red", "green", "blue", "alpha"};
+    const Mesh blended = mesh(withProperties("uchar", names, {"0 0 0 255", "0 0 0 51", "0 0 0 0"}));
+    EXPECT_THAT(blended.geometry.alphas, ElementsAre(1.0f, 0.2f, 0.0f));
+    EXPECT_EQ(blended.materials[0].alpha, (Alpha{AlphaMode::kBlend, 1.0f, 0.5f}));
+    EXPECT_THAT(blended.warnings, IsEmpty());
+    const Mesh real = mesh(withProperties("float", names, {"0 0 0 1", "0 0 0 0.25", "0 0 0 7"}));
+    EXPECT_THAT(real.geometry.alphas, ElementsAre(1.0f, 0.25f, 1.0f)) << "clamped";
+    EXPECT_THAT(real.warnings,
+                ElementsAre(HasSubstr("(vertex 3 of 3): a colour that is not between 0 and 1")));
+    const Mesh opaque = mesh(withProperties("uchar", names, {"0 0 0 255", "9 9 9 255", "0 0 0 255"}));
+    EXPECT_THAT(opaque.geometry.alphas, IsEmpty());
+    EXPECT_EQ(opaque.materials[0].alpha, Alpha());
+    const Mesh empty = mesh(withProperties("uchar", names, {"0 0 0 0", "9 9 9 0", "0 0 0 0"}));
+    EXPECT_EQ(empty.materials[0].alpha, Alpha());
+    EXPECT_THAT(empty.warnings, ElementsAre(HasSubstr("all vertices have alpha 0: alpha is ignored")));
+}
+
+TEST_F(PlyTest, TextureCoordinatesOfVerticesPointDownTheImage) {
+    for (const auto& [u, v] :
+         {std::pair("s", "t"), std::pair("u", "v"), std::pair("texture_u", "texture_v")}) {
+        const Geometry geometry = mesh(withProperties("float", {v, u}, {"0 0.5", "0.25 2", "1 0"})).geometry;
+        EXPECT_THAT(geometry.uvs,
+                    ElementsAre(glm::vec2(0.5f, 1.0f), glm::vec2(2.0f, 0.75f), glm::vec2(0, 0)));
+        EXPECT_THAT(geometry.uvIndices, ElementsAre(glm::uvec3(0, 1, 2)));
+    }
+    const Mesh bad = mesh(withProperties("float", {"s", "t"}, {"0 0", "nan 0", "1 0"}));
+    EXPECT_THAT(bad.geometry.uvIndices, testing::Each(glm::uvec3(Geometry::kNoUv)));
+    EXPECT_THAT(bad.warnings,
+                ElementsAre(HasSubstr("(vertex 2 of 3): a texture coordinate that is not finite")));
+}
+
+TEST_F(PlyTest, TexturesAsMeshLabWritesThem) {
+    write("Wood.png", "-");
+    const std::string text =
+        header("ascii", "comment VCGLIB generated\ncomment TextureFile wood.png\nelement vertex 4\n" +
+                            kCoordinates +
+                            "element face 3\nproperty list uchar float texcoord\nproperty int texnumber\n"
+                            "property list uchar int vertex_indices\n") +
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n8 0 0 1 0 1 1 0 1 0 4 0 1 2 3\n4 0 0 1 0 0 2 0 1\n6 0.5 0.5 1 1 0 0 0 3 "
+        "0 1 2\n";
+    const Mesh read = mesh(text);
+    const Geometry& geometry = read.geometry;
+    ASSERT_EQ(geometry.triangles.size(), 3u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3& place = geometry.positions[geometry.triangles[i][k]];
+            EXPECT_EQ(geometry.uvs[geometry.uvIndices[i][k]], glm::vec2(place.x, 1.0f - place.y));
+        }
+    }
+    EXPECT_EQ(geometry.uvs[geometry.uvIndices[2].x], glm::vec2(0.5f)) << "the face before it is left out";
+    ASSERT_EQ(read.materials[0].textures.size(), 1u);
+    EXPECT_EQ(read.materials[0].textures[0].input, MaterialInput::kBaseColor);
+    EXPECT_EQ(read.materials[0].textures[0].texture.colourSpace, ColourSpace::kSrgb);
+    EXPECT_EQ(read.materials[0].baseColor, glm::vec3(1.0f));
+    ASSERT_EQ(read.images.size(), 1u);
+    EXPECT_EQ(read.images[0].path, folder_ / "Wood.png");
+    EXPECT_THAT(read.files, testing::Contains(folder_ / "Wood.png"));
+    EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("a face of fewer than 3 corners: left out")));
+
+    std::string wrong = text;
+    wrong.replace(wrong.find("6 0.5"), 5, "4 0.5");
+    wrong.replace(wrong.find(" 1 1 0 0 0 3"), 12, " 1 1 0 3");
+    const Mesh incomplete = mesh(wrong);
+    EXPECT_EQ(incomplete.geometry.uvIndices[2].x, Geometry::kNoUv);
+    EXPECT_THAT(incomplete.warnings,
+                testing::Contains(HasSubstr("(face 3 of 3): a face whose texture coordinates are")));
 }
 
 TEST_F(PlyTest, ColoursStayWithTheirVertices) {

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "host/scene/material.h"
+
+namespace duolux {
+
+/// The images of an MTL material that are used.
+enum class MtlImage : std::uint8_t {
+    kDiffuse,
+    kSpecular,
+    kEmission,
+    kDissolve,
+    kRoughness,
+    kMetallic,
+    kClearcoat,
+    kClearcoatRoughness,
+    kSheen,
+    kNormal
+};
+
+struct MtlImageUse {
+    Texture texture;
+    std::uint32_t channel = 0;
+    bool hasChannel = false;  ///< whether the file chooses it
+    double scale = 1.0;       ///< of normals
+};
+
+/// What an MTL file says of one material; colours and numbers are in their ranges.
+struct MtlValues {
+    std::optional<glm::dvec3> diffuse, specular, emission, filter, sheen;      ///< Kd, Ks, Ke, Tf, Ps
+    std::optional<double> exponent;                                            ///< Ns
+    std::optional<double> dissolve, transparency, ior;                         ///< d, Tr, Ni
+    std::optional<double> roughness, metallic, clearcoat, clearcoatRoughness;  ///< Pr, Pm, Pc, Pcr
+    std::optional<double> anisotropy, anisotropyRotation;  ///< aniso, anisor; the latter in full turns
+    std::optional<double> illumination;                    ///< illum
+    std::array<std::optional<MtlImageUse>, 10> images;     ///< by MtlImage
+
+    std::optional<MtlImageUse>& image(MtlImage image) { return images[static_cast<std::size_t>(image)]; }
+    const std::optional<MtlImageUse>& image(MtlImage image) const {
+        return images[static_cast<std::size_t>(image)];
+    }
+};
+
+/// Fills in a material (except for its name) by the table in README.md. Returns the keywords of statements
+/// that have no effect on it although they would have one elsewhere.
+std::vector<std::string_view> mapMtl(const MtlValues& values, Material& material);
+
+/// Dissolves from this on are opaque.
+inline constexpr double kMtlOpaque = 0.999;
+
+}  // namespace duolux
