@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/text.h"
+#include "host/loaders/gltf.h"
 #include "host/loaders/json_scene.h"
 #include "host/loaders/obj.h"
 #include "host/loaders/ply.h"
@@ -23,7 +24,8 @@ struct MeshFormat {
     std::string_view extension;
     Mesh (*load)(const fs::path& path, MaterialFiles& files);
 };
-constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}};
+constexpr MeshFormat kMeshFormats[] = {
+    {".obj", loadObj}, {".ply", loadPly}, {".gltf", loadGltf}, {".glb", loadGltf}};
 
 constexpr std::string_view kJsonExtension = ".json";
 
@@ -54,12 +56,13 @@ SceneFile readMeshScene(const fs::path& path, Reading reading) {
     MaterialFiles files(reading);
     Mesh mesh = loadMesh(path, files);
     setOrigin(scene, mesh.origin);
+    const CameraChoice camera = mesh.camera;
     appendMesh(scene, std::move(mesh));
     if (scene.geometry.triangles.empty()) {
         throw InputError(path.string(), "", "every triangle has zero area", "expected triangles with area");
     }
     const std::size_t triangles = scene.geometry.triangles.size();
-    return {std::move(scene), {}, triangles, false, false};
+    return {std::move(scene), camera, triangles, false, false};
 }
 
 }  // namespace

@@ -6,9 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/camera_choice.h"
 #include "host/scene/scene.h"
 
 namespace duolux {
+
+/// A PointEmitter whose position is in the coordinates of a file.
+struct PlacedPointEmitter {
+    glm::dvec3 position{0.0};
+    glm::vec3 invisible{0.0f};
+    glm::vec3 visible{0.0f};
+};
 
 /// The content of a mesh file: triangles in object space, possibly including some with zero area.
 struct Mesh {
@@ -18,6 +26,8 @@ struct Mesh {
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
     std::vector<Material> materials;  ///< used by faces; Texture::image is an index into `images`
     std::vector<ImageSource> images;
+    std::vector<PlacedPointEmitter> pointEmitters;
+    CameraChoice camera;  ///< the camera of the file; nothing is specified if it has none
     std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face uses
     std::vector<std::string> warnings;
     std::uint64_t bytes = 0;  ///< size of the file
