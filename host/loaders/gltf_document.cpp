@@ -21,14 +21,16 @@ constexpr std::string_view kMagic = "glTF";
 constexpr const char* kVersionRemedy = "expected \"2.0\"";
 
 /// Extensions that are read, or that do not affect pictures of the default state.
-constexpr std::array<std::string_view, 19> kUnderstood{"EXT_mesh_gpu_instancing",
+constexpr std::array<std::string_view, 20> kUnderstood{"EXT_mesh_gpu_instancing",
                                                        "EXT_meshopt_compression",
+                                                       "KHR_animation_pointer",
                                                        "KHR_draco_mesh_compression",
                                                        "KHR_lights_punctual",
                                                        "KHR_materials_anisotropy",
                                                        "KHR_materials_clearcoat",
                                                        "KHR_materials_emissive_strength",
                                                        "KHR_materials_ior",
+                                                       "KHR_materials_pbrSpecularGlossiness",
                                                        "KHR_materials_sheen",
                                                        "KHR_materials_specular",
                                                        "KHR_materials_transmission",
@@ -37,7 +39,6 @@ constexpr std::array<std::string_view, 19> kUnderstood{"EXT_mesh_gpu_instancing"
                                                        "KHR_materials_volume",
                                                        "KHR_mesh_quantization",
                                                        "KHR_texture_transform",
-                                                       "KHR_animation_pointer",
                                                        "KHR_xmp",
                                                        "KHR_xmp_json_ld"};
 

@@ -125,8 +125,8 @@ class HierarchyReader {
 
     std::vector<std::uint32_t> rootsOfScene() {
         const std::vector<JsonNode>& scenes = document_.list("scenes");
-        if (scenes.empty()) return allRoots();
         const auto chosen = document_.root().find("scene");
+        if (scenes.empty() && !chosen) return allRoots();
         const auto nodes = scenes[chosen ? document_.index(*chosen, "scenes") : 0].find("nodes");
         std::vector<std::uint32_t> roots;
         if (!nodes) return roots;

@@ -31,7 +31,9 @@ class GltfMaterialReader {
         material_ = defaultGltfMaterial();
         material_.name = gltfMaterialName(node_, index);
         readAlpha();
-        if (const auto pbr = node_.find("pbrMetallicRoughness")) readPbr(*pbr);
+        const auto old = extensionOf(node_, "KHR_materials_pbrSpecularGlossiness");
+        if (old) readSpecularGlossiness(*old);
+        if (const auto pbr = node_.find("pbrMetallicRoughness"); pbr && !old) readPbr(*pbr);
         readNormal();
         readEmission();
         readDielectric();
@@ -93,20 +95,41 @@ class GltfMaterialReader {
         }
     }
 
-    void readPbr(const JsonNode& pbr) {
-        if (const auto factor = pbr.find("baseColorFactor")) {
+    void readBaseColor(const JsonNode& node, const char* factorKey, const char* textureKey) {
+        if (const auto factor = node.find(factorKey)) {
             material_.baseColor = colourOf(*factor, 4, 1.0);
             const JsonNode alpha = factor->elements("expected 4 numbers")[3];
             material_.alpha.value =
                 static_cast<float>(clamped(alpha, 0.0, 1.0, "expected a number from 0 to 1"));
         }
+        colourTexture(node, textureKey, MaterialInput::kBaseColor);
+        if (material_.alpha.mode != AlphaMode::kOpaque)
+            texture(node, textureKey, MaterialInput::kAlpha, kAlphaChannel);
+    }
+
+    void readPbr(const JsonNode& pbr) {
+        readBaseColor(pbr, "baseColorFactor", "baseColorTexture");
         fraction(pbr, "metallicFactor", material_.metallic);
         fraction(pbr, "roughnessFactor", material_.roughness);
-        colourTexture(pbr, "baseColorTexture", MaterialInput::kBaseColor);
-        if (material_.alpha.mode != AlphaMode::kOpaque)
-            texture(pbr, "baseColorTexture", MaterialInput::kAlpha, kAlphaChannel);
         texture(pbr, "metallicRoughnessTexture", MaterialInput::kMetallic, kBlue);
         texture(pbr, "metallicRoughnessTexture", MaterialInput::kRoughness, kGreen);
+    }
+
+    /// An archived extension: a dielectric whose reflectance at normal incidence is a colour, which this
+    /// model states relative to that of its index of refraction.
+    void readSpecularGlossiness(const JsonNode& node) {
+        constexpr float kReflectance = 0.04f;  // of an index of 1.5
+        readBaseColor(node, "diffuseFactor", "diffuseTexture");
+        glm::vec3 reflectance(1.0f);
+        colour(node, "specularFactor", 1.0, reflectance);
+        float glossiness = 1.0f;
+        fraction(node, "glossinessFactor", glossiness);
+        material_.metallic = 0.0f;
+        material_.roughness = 1.0f - glossiness;
+        material_.specularColor = reflectance / kReflectance;
+        colourTexture(node, "specularGlossinessTexture", MaterialInput::kSpecularColor);
+        if (const auto image = node.find("specularGlossinessTexture"))
+            notes_.ignore(*image, "glossiness in an image is not supported", "its factor is used");
     }
 
     void readNormal() {

@@ -121,7 +121,7 @@ fs::path pathOfUri(const JsonNode& node) {
     if (uri.empty() || decoded.find('\0') != std::string::npos) node.failValue(kUriRemedy);
     const fs::path folder = node.file().parent_path();
     std::error_code ec;
-    for (const fs::path& name : {fs::path(decoded), fs::path(uri), fs::path(withSlashes(decoded))}) {
+    for (const std::string& name : {decoded, std::string(uri), withSlashes(decoded), withSlashes(uri)}) {
         if (fs::exists(folder / name, ec)) return folder / name;
     }
     return folder / decoded;
