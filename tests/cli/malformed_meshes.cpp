@@ -96,7 +96,9 @@ std::vector<MalformedScene> malformedObjs() {
            "0.00\n0 1"}},
          {"mesh.ply: line 12 (vertex 3 of 3): ", "ends here", "expected 3"}},
         {"PlyThatIsObj", {{"mesh.ply", kVertices}}, {"mesh.ply: line 1: ", "\"ply\""}},
-        {"UnknownExtension", {{"mesh.stl", "solid\n"}}, {"mesh.stl: ", ".obj", ".ply", ".json"}},
+        {"UnknownExtension",
+         {{"mesh.stl", "solid\n"}},
+         {"mesh.stl: ", ".obj", ".ply", ".gltf", ".glb", ".json"}},
         {"NoSuchFile", {{"none.obj", "-"}}, {"none.obj: ", "No such file"}},
     };
 }

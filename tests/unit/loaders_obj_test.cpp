@@ -227,7 +227,7 @@ TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
 TEST_F(ObjTest, OtherExtensionsAreRefused) {
     write("mesh.stl", kTriangleObj);
     EXPECT_EQ(errorOf("mesh.stl"),
-              "mesh.stl: has no extension of a scene file; expected .obj, .ply or .json");
+              "mesh.stl: has no extension of a scene file; expected .obj, .ply, .gltf, .glb or .json");
     EXPECT_THAT(errorOf("none.obj"), StartsWith("none.obj: cannot open: No such file"));
 }
 
