@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -96,7 +97,7 @@ class KeyWatch : public nlohmann::json_sax<json> {
 };
 
 /// "line 3, column 5" for a byte offset; columns count bytes.
-std::string placeOf(const std::string& text, std::size_t offset) {
+std::string placeOf(std::string_view text, std::size_t offset) {
     const std::size_t end = std::min(offset, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
     const std::size_t newline = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
@@ -116,12 +117,15 @@ std::string explanation(const std::string& message) {
 }  // namespace
 
 json parseJsonFile(const std::filesystem::path& path) {
-    const std::string text = readFile(path);
+    return parseJson(path, readFile(path), "a JSON scene");
+}
+
+json parseJson(const std::filesystem::path& path, std::string_view text, std::string_view expected) {
     if (text.empty()) {  // the library's message depends on its version
         throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty",
                          "expected JSON");
     }
-    expectNoForeignFormat(path, text, "a JSON scene");
+    expectNoForeignFormat(path, text, expected);
     try {
         KeyWatch watch(path.string());
         json::sax_parse(text, &watch);

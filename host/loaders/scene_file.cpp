@@ -8,6 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/text.h"
+#include "host/loaders/gltf.h"
 #include "host/loaders/json_scene.h"
 #include "host/loaders/missing_uvs.h"
 #include "host/loaders/obj.h"
@@ -25,7 +26,8 @@ struct MeshFormat {
     std::string_view extension;
     Mesh (*load)(const fs::path& path, MaterialFiles& files);
 };
-constexpr MeshFormat kMeshFormats[] = {{".obj", loadObj}, {".ply", loadPly}, {".stl", loadStl}};
+constexpr MeshFormat kMeshFormats[] = {
+    {".obj", loadObj}, {".ply", loadPly}, {".stl", loadStl}, {".gltf", loadGltf}, {".glb", loadGltf}};
 
 constexpr std::string_view kJsonExtension = ".json";
 

@@ -21,7 +21,7 @@ struct SceneFile {
     bool hasBounces;              ///< whether the file specifies the number of bounces
 };
 
-/// The extensions of mesh files, and of all scene files, for messages: ".obj, .ply or .json".
+/// The extensions of mesh files, and of all scene files, for messages: ".obj, .ply ... or .json".
 std::string meshExtensions();
 std::string sceneExtensions();
 

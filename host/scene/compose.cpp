@@ -87,10 +87,17 @@ bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* 
 
 bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneOrigin,
                double* roundingError) {
+    bool inRange = true;
+    for (PlacedPointEmitter& emitter : mesh.pointEmitters) {
+        emitter.position = glm::dvec3(transform * glm::dvec4(emitter.position, 1.0));
+        inRange =
+            inRange && glm::all(glm::lessThanEqual(glm::abs(emitter.position - sceneOrigin),
+                                                   glm::dvec3(static_cast<double>(kLargestCoordinate))));
+    }
     glm::dmat4 local = transform;
     local[3] = transform * glm::dvec4(mesh.origin, 1.0) - glm::dvec4(sceneOrigin, 0.0);
     mesh.origin = sceneOrigin;
-    return local == glm::dmat4(1.0) || transformGeometry(mesh.geometry, local, roundingError);
+    return (local == glm::dmat4(1.0) || transformGeometry(mesh.geometry, local, roundingError)) && inRange;
 }
 
 Composer::Composer(LoadedScene& scene) : scene_(scene) {
@@ -125,6 +132,8 @@ void Composer::append(Mesh mesh) {
     for (std::uint32_t& material : mesh.geometry.materials)
         material = indices[material];
     appendGeometry(scene_.geometry, std::move(mesh.geometry));
+    for (const auto& [position, invisible, visible] : mesh.pointEmitters)
+        scene_.pointEmitters.push_back({glm::vec3(position - scene_.origin), invisible, visible});
     scene_.meshBytes += mesh.bytes;
     scene_.files.insert(scene_.files.end(), mesh.files.begin(), mesh.files.end());
     for (std::string& warning : mesh.warnings)

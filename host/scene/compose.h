@@ -38,7 +38,7 @@ class Composer {
   public:
     explicit Composer(LoadedScene& scene);
 
-    /// Adds the triangles and materials of a mesh, whose origin must be the scene's; a material equal to one
+    /// Adds the triangles, materials and point emitters of a mesh, whose origin must be the scene's; a material equal to one
     /// that the scene has is shared. Triangles without area are left out. Throws InputError if there would be
     /// too many triangles.
     void append(Mesh mesh);

@@ -11,6 +11,13 @@
 
 namespace duolux {
 
+/// A PointEmitter whose position is in the coordinates of a file.
+struct PlacedPointEmitter {
+    glm::dvec3 position{0.0};
+    glm::vec3 invisible{0.0f};
+    glm::vec3 visible{0.0f};
+};
+
 /// The content of a mesh file: triangles in object space, possibly including some with zero area.
 struct Mesh {
     std::filesystem::path source;
@@ -19,6 +26,7 @@ struct Mesh {
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
     std::vector<Material> materials;  ///< used by faces; Texture::image is an index into `images`
     std::vector<ImageSource> images;
+    std::vector<PlacedPointEmitter> pointEmitters;
     CameraChoice camera;  ///< the camera of the file; nothing is specified if it has none
     std::vector<std::string> unusedMaterials;  ///< names in the mesh that no face uses
     std::vector<std::string> warnings;

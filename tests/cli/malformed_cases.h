@@ -32,6 +32,7 @@ inline void PrintTo(const WrongUsage& usage, std::ostream* out) {
 
 std::vector<MalformedScene> malformedObjs();
 std::vector<MalformedScene> malformedMtls();
+std::vector<MalformedScene> malformedGltfs();
 std::vector<MalformedScene> malformedJsons();
 std::vector<WrongUsage> wrongUsages();
 

@@ -96,7 +96,7 @@ std::vector<MalformedScene> malformedObjs() {
            "0.00\n0 1"}},
          {"mesh.ply: line 12 (vertex 3 of 3): ", "ends here", "expected 3"}},
         {"PlyThatIsObj", {{"mesh.ply", kVertices}}, {"mesh.ply: line 1: ", "\"ply\""}},
-        {"UnknownExtension", {{"mesh.fbx", "solid\n"}}, {"mesh.fbx: ", ".obj", ".ply", ".stl", ".json"}},
+        {"UnknownExtension", {{"mesh.fbx", "solid\n"}}, {"mesh.fbx: ", ".obj", ".ply", ".stl", ".gltf", ".glb", ".json"}},
         {"StlCutOff",
          {{"mesh.stl", "solid\nfacet\nvertex 1 2 3\n"}},
          {"mesh.stl: line 3: ", "within a facet", "\"endfacet\""}},

@@ -118,7 +118,7 @@ std::vector<MalformedScene> malformedJsons() {
                 "emission": {"invisible": 1}}])",
              {"scene.json: lights[0]: ", "span no area"}),
         json("MeshMissing", R"({"duolux": 1, "objects": [{"mesh": "nowhere.obj"}]})",
-             {"scene.json: objects[0].mesh: ", "no file nowhere.obj", ".obj, .ply or .stl file"}),
+             {"scene.json: objects[0].mesh: ", "no file nowhere.obj", ".obj, .ply, .stl, .gltf or .glb file"}),
         json("MeshOfOtherKind", R"({"duolux": 1, "objects": [{"mesh": "mesh.ply"}]})",
              {"scene.json: objects[0].mesh: "}),
         {"MeshMalformed",

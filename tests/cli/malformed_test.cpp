@@ -99,6 +99,7 @@ TEST_F(GoodSceneTest, TheSceneOfTheWrongUsagesIsRight) {
 constexpr auto kNameOf = [](const auto& info) { return std::string(info.param.name); };
 INSTANTIATE_TEST_SUITE_P(Obj, MalformedSceneTest, testing::ValuesIn(malformedObjs()), kNameOf);
 INSTANTIATE_TEST_SUITE_P(Mtl, MalformedSceneTest, testing::ValuesIn(malformedMtls()), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Gltf, MalformedSceneTest, testing::ValuesIn(malformedGltfs()), kNameOf);
 INSTANTIATE_TEST_SUITE_P(Json, MalformedSceneTest, testing::ValuesIn(malformedJsons()), kNameOf);
 INSTANTIATE_TEST_SUITE_P(Options, WrongUsageTest, testing::ValuesIn(wrongUsages()), kNameOf);
 

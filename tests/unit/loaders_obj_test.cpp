@@ -227,7 +227,7 @@ TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
 TEST_F(ObjTest, OtherExtensionsAreRefused) {
     write("mesh.fbx", kTriangleObj);
     EXPECT_EQ(errorOf("mesh.fbx"),
-              "mesh.fbx: has no extension of a scene file; expected .obj, .ply, .stl or .json");
+              "mesh.fbx: has no extension of a scene file; expected .obj, .ply, .stl, .gltf, .glb or .json");
     EXPECT_THAT(errorOf("none.obj"), StartsWith("none.obj: cannot open: No such file"));
 }
 
