@@ -10,6 +10,11 @@ bool any(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
 
+bool hasTexture(const Material& material, MaterialInput input) {
+    return std::ranges::any_of(material.textures,
+                               [&](const MaterialTexture& entry) { return entry.input == input; });
+}
+
 /// The entries that are non-zero in any of the matrices: bit j of row i.
 struct Pattern {
     unsigned row[2] = {0, 0};
@@ -42,7 +47,8 @@ TransportTraits analyseTransport(const Scene& scene) {
         const Reflectance& reflectance = scene.reflectanceOf(scene.materials[i]);
         if (first == nullptr) first = &reflectance;
         traits.oneReflectance = traits.oneReflectance && reflectance == *first;
-        if (scene.materials[i].metallic < 1.0f) traits.lobes |= shared::kLobeDiffuse;
+        if (scene.materials[i].metallic < 1.0f || hasTexture(scene.materials[i], MaterialInput::kMetallic))
+            traits.lobes |= shared::kLobeDiffuse;
         if (scene.materials[i].metallic > 0.0f) traits.lobes |= shared::kLobeConductor;
         opaque.add(reflectance.opaque);
         transparent.add(reflectance.transparent);

@@ -1,5 +1,6 @@
 // What both integrators do along a segment of a path.
 #include "shaders/lib/material.glsl"
+#include "shaders/lib/normal_map.glsl"
 #include "shaders/lib/vertex.glsl"
 
 // A surface that a ray along a segment has met.
@@ -7,21 +8,53 @@ struct SurfaceHit {
     uint materialIndex;
     Material material;
     SurfacePoint point;
-    bool front;    // the ray arrives at the triangle's front
-    float cosine;  // between the ray and the normal of the front
+    bool front;          // the ray arrives at the triangle's front
+    float cosine;        // between the ray and the normal of the front
+    vec3 emissionTexel;  // scales what the surface emits
 };
 
-// `crossings`: surfaces crossed on the segment before.
-SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle tri) {
+// Scales the parameters of a material by its textures.
+void applyTextures(inout Material material, TextureValues values) {
+    if (isTextured(kGroupBase)) material.bsdf.baseColor *= values.base.xyz;
+    if (isTextured(kGroupSurface)) {
+        material.bsdf.metallic *= values.surface.x;
+        material.bsdf.roughness *= values.surface.y;
+    }
+}
+
+// The frame of the tangent at a point of a triangle whose front has the unit normal `front`.
+TangentFrame tangentFrameAt(Triangle tri, uint triangle, vec2 barycentric, vec3 front) {
+    VertexRecords vertices = fetchVertices(triangle);
+    bool isSmooth = (tri.materialFlags & kTriangleSmooth) != 0u;
+    return tangentFrame(vertices, barycentric, isSmooth ? vertexNormal(vertices, barycentric) : front);
+}
+
+// `crossings`: surfaces crossed on the segment before. `viewer`: unit, from the point towards who looks at it.
+SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle tri, vec3 viewer) {
     SurfaceHit hit;
     hit.materialIndex = tri.materialFlags & kMaterialMask;
     hit.material = fetchMaterial(hit.materialIndex);
     if (kVertexColours) hit.material.bsdf.baseColor *= vertexColour(ray.triangle, ray.barycentric);
+    TextureValues values = noTextures();
+    if (kTextureGroups != 0u) {
+        values = texturesAt(ray.triangle, hit.materialIndex, kTextureGroups, ray.barycentric);
+        applyTextures(hit.material, values);
+    }
+    hit.emissionTexel = values.emission.xyz;
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
     hit.cosine = dot(normal, segment.direction);
     hit.front = hit.cosine < 0.0;
     bool behindOthers = kPlanes && crossings > 0u && segment.t == ray.t;
     hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
+    if (isTextured(kGroupNormal) && kVertexRecords) {
+        // A loop, because only loops skip what no lane needs.
+        uint mapped = fetchTextureRange(hit.materialIndex).y > 0u ? 1u : 0u;
+        for (uint i = 0u; i < mapped; i++) {
+            TangentFrame frame = tangentFrameAt(tri, ray.triangle, ray.barycentric, normal);
+            hit.point.shadingNormal = normalMapped(values.normal.xyz, fetchNormalScale(hit.materialIndex), frame,
+                                                   hit.point.geometricNormal, viewer);
+        }
+    }
     hit.point = placedByPlane(hit.point, segment.origin + segment.direction * ray.t, behindOthers);
     return hit;
 }
@@ -59,7 +92,7 @@ bool survives(uvec2 stream, uint scatterings, uint crossings, float weight, out 
 
 // Without smooth normals a vertex need not keep both normals.
 BsdfFrame frameOf(SurfacePoint point) {
-    return BsdfFrame(kSmoothNormals ? point.shadingNormal : point.geometricNormal, point.geometricNormal);
+    return BsdfFrame(kSmoothNormals || isTextured(kGroupNormal) ? point.shadingNormal : point.geometricNormal, point.geometricNormal);
 }
 
 // A ray that leaves a point at which the BSDF scatters.

@@ -1,5 +1,5 @@
-// Colours of vertices, which scale the base colour of a surface. The kernel that includes this defines
-// fetchColourTexel.
+// Colours and alphas of vertices, which scale the base colour and alpha of a surface. The kernel that includes this
+// defines fetchColourTexel.
 #ifndef DUOLUX_LIB_VERTEX_COLOUR_GLSL
 #define DUOLUX_LIB_VERTEX_COLOUR_GLSL
 
@@ -18,6 +18,13 @@ vec3 vertexColour(uint triangle, vec2 barycentric) {
     uvec4 texel = fetchColourTexel(triangle * kColourTexels);
     return decodeColour(texel.x) * (1.0 - barycentric.x - barycentric.y) + decodeColour(texel.y) * barycentric.x +
            decodeColour(texel.z) * barycentric.y;
+}
+
+// The interpolated vertex alpha at a point of a triangle, 0 to 1: 10 bits for each vertex.
+float vertexAlpha(uint triangle, vec2 barycentric) {
+    uint bits = fetchColourTexel(triangle * kColourTexels).w;
+    vec3 alphas = vec3(uvec3(bits, bits >> 10u, bits >> 20u) & 1023u) * (1.0 / 1023.0);
+    return alphas.x * (1.0 - barycentric.x - barycentric.y) + alphas.y * barycentric.x + alphas.z * barycentric.y;
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include "shaders/shared/path_tracer_layout.h"
 #include "tests/shader/layout_words.h"
 #include "tests/shader/mirror_types.h"
+#include "tests/shader/no_scene.h"
 
 // Records in texels: the host writes a sentinel into every field, and the library's fetch functions must
 // return it in the corresponding field. There are several records to test the stride.
@@ -110,6 +111,7 @@ TEST(RecordLayout, EmittersAreFetchedFieldByField) {
         "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }"
         "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }"
         "uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }");
+    library.define(kNoVertexRecords).define(kNoEmissionTextures);
     library.texels("fetchEmitterTexel", std::span(std::as_const(records)));
     const auto emitters = library.call<Emitter>("fetchEmitter", recordIndices());
     const auto entries = library.call<AliasEntry>("fetchAliasEntry", recordIndices());
@@ -176,6 +178,7 @@ TEST(RecordLayout, NormalsAreFetchedVertexByVertex) {
         }
     }
     ShaderLibrary library("shaders/lib/normals.glsl");
+    library.define(kNoVertexRecords);
     library.texels("fetchNormalTexel", std::span(std::as_const(records)));
     const auto normals = library.call<glm::vec3>("shadingNormal", triangles, barycentrics);
     for (std::size_t i = 0; i < expected.size(); ++i)
