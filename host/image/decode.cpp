@@ -11,6 +11,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/film/codec.h"
+#include "host/image/hdr.h"
 #include "host/image/stb_image.h"
 
 namespace duolux {
@@ -91,7 +92,7 @@ DecodedImage decodeImage(const ImageSource& source) {
         image.height = pixels.height;
         image.bytes = std::move(pixels.values);
     } else if (bytes.starts_with("#?"sv)) {
-        StbPixels<float> pixels = decodeHdr(bytes, file);
+        RgbaImage pixels = decodeHdr(bytes, file);
         image = imageOf(pixels.width, pixels.height, std::move(pixels.values));
         decoded.linear = true;
     } else if (bytes.starts_with("\x76\x2f\x31\x01"sv)) {

@@ -5,9 +5,10 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
-#define STBI_ONLY_HDR
 #define STBI_MAX_DIMENSIONS 65536
 #include <stb/stb_image.h>
 
@@ -66,11 +67,6 @@ StbPixels<std::uint8_t> decodeJpeg(std::string_view bytes, const std::string& fi
 StbPixels<std::uint16_t> decodePng16(std::string_view bytes, const std::string& file) {
     // Deflate compresses at most 1032 bytes into one.
     return decodeStb<std::uint16_t>(bytes, file, "PNG", 516, stbi_load_16_from_memory);
-}
-
-StbPixels<float> decodeHdr(std::string_view bytes, const std::string& file) {
-    // Two bytes stand for at most 127 values of one of four channels.
-    return decodeStb<float>(bytes, file, "HDR", 16, stbi_loadf_from_memory);
 }
 
 }  // namespace duolux

@@ -14,10 +14,8 @@ struct StbPixels {
     std::vector<Value> values;
 };
 
-/// Decode with stb_image: `bytes` is a JPEG; a PNG, possibly with 16 bits per channel; a Radiance HDR. Throw
-/// InputError naming `file`.
+/// Decode a JPEG, or a PNG with 16 bits per channel, with stb_image. Throw InputError naming `file`.
 StbPixels<std::uint8_t> decodeJpeg(std::string_view bytes, const std::string& file);
 StbPixels<std::uint16_t> decodePng16(std::string_view bytes, const std::string& file);
-StbPixels<float> decodeHdr(std::string_view bytes, const std::string& file);
 
 }  // namespace duolux

@@ -8,6 +8,7 @@
 
 #include "shaders/shared/bvh_layout.h"
 #include "shaders/shared/path_tracer_layout.h"
+#include "shaders/shared/texture_layout.h"
 #include "tests/shader/layout_words.h"
 #include "tests/shader/mirror_types.h"
 #include "tests/shader/no_scene.h"
@@ -99,6 +100,43 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
         EXPECT_EQ(numbers(opaque[i]), matrix("opaque"));
         EXPECT_EQ(numbers(transparent[i]), matrix("transparent"));
         record.expectAllFetched();
+    }
+}
+
+TEST(RecordLayout, TexturesAreFetchedFieldByField) {
+    const auto records = sentinels<shared::DeviceTexture>(kRecords);
+    ShaderLibrary library("shaders/lib/texture.glsl");
+    library.define("uvec4 fetchAtlasTexel(uint index) { return uvec4(0u); }");
+    library.texels("fetchTextureTexel", std::span(std::as_const(records)));
+    const auto textures = library.call<mirror::single::Texture>("fetchTexture", recordIndices());
+    for (std::size_t i = 0; i < kRecords; ++i) {
+        SentinelRecord<shared::DeviceTexture> record(i);
+        EXPECT_EQ(numbers(textures[i]), record.ofStructure("Texture"));
+        record.expectAllFetched();
+    }
+}
+
+/// Each word of a vertex by the record that the corner names.
+TEST(RecordLayout, VerticesAreFetchedCornerByCorner) {
+    const auto vertices = sentinels<shared::DeviceVertex>(3 * kRecords);
+    std::vector<shared::DeviceCorners> corners;
+    for (std::uint32_t i = 0; i < kRecords; ++i)
+        corners.push_back({{3 * i + 2, 3 * i, 3 * i + 1}, 0xdeadbeefu});
+    ShaderLibrary library("shaders/lib/vertex_records.glsl");
+    library.define("uvec4 fetchSecondUvTexel(uint index) { return uvec4(0u); }");
+    library.texels("fetchCornerTexel", std::span(std::as_const(corners)))
+        .texels("fetchVertexTexel", std::span(std::as_const(vertices)));
+    for (const auto& [field, vertex] :
+         {std::pair{"first", 2}, std::pair{"second", 0}, std::pair{"third", 1}}) {
+        const auto words = library.evaluate<glm::uvec4>(fmt::format("result = fetchVertices(x0).{};", field),
+                                                        recordIndices());
+        for (std::uint32_t i = 0; i < kRecords; ++i) {
+            for (std::size_t w = 0; w < 4; ++w) {
+                EXPECT_EQ(words[i][static_cast<int>(w)],
+                          sentinel(3 * i + static_cast<std::size_t>(vertex), w))
+                    << field << " " << i << " " << w;
+            }
+        }
     }
 }
 

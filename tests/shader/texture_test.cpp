@@ -33,16 +33,16 @@ std::shared_ptr<const Image> randomImage(std::mt19937& random, bool floats) {
 }
 
 /// A scene with a triangle for each material.
-Scene sceneOf(std::vector<Material> materials, std::vector<std::shared_ptr<const Image>> images) {
+Scene sceneOf(std::vector<duolux::Material> materials, std::vector<std::shared_ptr<const Image>> images) {
     SceneBuilder builder;
-    for (const Material& material : materials)
+    for (const duolux::Material& material : materials)
         builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, builder.add(material));
     builder.scene.images = std::move(images);
     return builder.scene;
 }
 
-Material textured(std::vector<MaterialTexture> textures) {
-    Material material;
+duolux::Material textured(std::vector<MaterialTexture> textures) {
+    duolux::Material material;
     material.textures = std::move(textures);
     return material;
 }
@@ -50,7 +50,7 @@ Material textured(std::vector<MaterialTexture> textures) {
 /// Every combination of wraps, filter, colour space and kind of pixels.
 Scene randomTextures() {
     std::mt19937 random(5);
-    std::vector<Material> materials;
+    std::vector<duolux::Material> materials;
     std::vector<std::shared_ptr<const Image>> images;
     const auto uniform = [&](float low, float high) {
         return low + (high - low) * static_cast<float>(random() >> 8) * 0x1p-24f;
@@ -60,8 +60,12 @@ Scene randomTextures() {
             for (const Filter filter : kValuesOf<Filter>) {
                 for (const ColourSpace space : {ColourSpace::kLinear, ColourSpace::kSrgb}) {
                     for (const bool floats : {false, true}) {
-                        Texture texture{static_cast<std::uint32_t>(images.size()), space, wrapU, wrapV,
-                                        filter};
+                        duolux::Texture texture;
+                        texture.image = static_cast<std::uint32_t>(images.size());
+                        texture.colourSpace = space;
+                        texture.wrapU = wrapU;
+                        texture.wrapV = wrapV;
+                        texture.filter = filter;
                         texture.transform = {{uniform(-2, 2), uniform(-2, 2)},
                                              {uniform(-3, 3), uniform(-3, 3)},
                                              uniform(-180, 180)};
@@ -101,7 +105,7 @@ glm::dvec4 pixelOf(const Image& image, ColourSpace space, std::int64_t x, std::i
 }
 
 /// The expected value, and how far the place is from a border at which it jumps, in pixels.
-glm::dvec4 expectedValue(const Scene& scene, const Texture& texture, glm::dvec2 uv, double& margin) {
+glm::dvec4 expectedValue(const Scene& scene, const duolux::Texture& texture, glm::dvec2 uv, double& margin) {
     const Image& image = *scene.images[texture.image];
     const double angle = static_cast<double>(texture.transform.rotation) * std::numbers::pi / 180.0;
     // (1, 0) turns towards -v.
@@ -144,7 +148,7 @@ TEST(Textures, LookupsAreThoseOfDoublePrecision) {
         library.evaluate<glm::vec4>("result = sampleTexture(fetchTexture(x0), x1);", indices, uvs);
     std::size_t compared = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const Texture& texture = scene.materials[indices[i]].textures[0].texture;
+        const duolux::Texture& texture = scene.materials[indices[i]].textures[0].texture;
         double margin = 0.0;
         const glm::dvec4 expected = expectedValue(scene, texture, glm::dvec2(uvs[i]), margin);
         if (margin < 1e-4) continue;
@@ -159,15 +163,15 @@ TEST(Textures, LookupsAreThoseOfDoublePrecision) {
     EXPECT_GT(compared, values.size() * 99 / 100);
 }
 
-Texture textureOf(std::uint32_t image, ColourSpace space = ColourSpace::kLinear) {
-    Texture texture;
+duolux::Texture textureOf(std::uint32_t image, ColourSpace space = ColourSpace::kLinear) {
+    duolux::Texture texture;
     texture.image = image;
     texture.colourSpace = space;
     return texture;
 }
 
 /// The component that a record has no channel for.
-constexpr std::uint32_t kNo = shared::kNoChannel;
+constexpr std::uint32_t kAbsent = shared::kNoChannel;
 
 std::array<std::uint32_t, 4> swizzleOf(const shared::DeviceTexture& record) {
     std::array<std::uint32_t, 4> swizzle{};
@@ -179,7 +183,7 @@ std::array<std::uint32_t, 4> swizzleOf(const shared::DeviceTexture& record) {
 TEST(Textures, InputsOfAGroupFromOneImageAreOneLookup) {
     using enum MaterialInput;
     std::mt19937 random(7);
-    Texture elsewhere = textureOf(1);
+    duolux::Texture elsewhere = textureOf(1);
     elsewhere.transform.offset.x = 0.5f;
     const Scene scene =
         sceneOf({textured({{kBaseColor, textureOf(0, ColourSpace::kSrgb)},
@@ -198,12 +202,12 @@ TEST(Textures, InputsOfAGroupFromOneImageAreOneLookup) {
     };
     expect(0, shared::kGroupBase, {0, 1, 2, 3});
     EXPECT_NE(table.records[0].flags & shared::kTextureSrgb, 0u);
-    expect(1, shared::kGroupSurface, {2, 1, kNo, kNo});
-    expect(2, shared::kGroupSurface, {kNo, kNo, 0, kNo});
-    expect(3, shared::kGroupBase, {kNo, kNo, kNo, 1});
+    expect(1, shared::kGroupSurface, {2, 1, kAbsent, kAbsent});
+    expect(2, shared::kGroupSurface, {kAbsent, kAbsent, 0, kAbsent});
+    expect(3, shared::kGroupBase, {kAbsent, kAbsent, kAbsent, 1});
     // Red as alpha is not decoded, unlike red as a colour.
-    expect(4, shared::kGroupBase, {0, 1, 2, kNo});
-    expect(5, shared::kGroupBase, {kNo, kNo, kNo, 0});
+    expect(4, shared::kGroupBase, {0, 1, 2, kAbsent});
+    expect(5, shared::kGroupBase, {kAbsent, kAbsent, kAbsent, 0});
     EXPECT_EQ(table.ranges[1].first, 3u);
     EXPECT_EQ(table.ranges[1].count, 1u);
     EXPECT_EQ(table.groups, 1u << shared::kGroupBase | 1u << shared::kGroupSurface);
@@ -229,7 +233,7 @@ TEST(Textures, EveryInputReachesItsComponent) {
         images.push_back(pixelImage({byte(0), byte(1), byte(2), byte(3)}));
         entries.push_back({input, textureOf(i), i % 4});
     }
-    const Scene scene = sceneOf({Material(), textured(entries)}, images);
+    const Scene scene = sceneOf({duolux::Material(), textured(entries)}, images);
     const AtlasPlan plan = planAtlas(scene, 1 << 10);
     const TextureTable table = makeTextureTable(scene, plan);
     EXPECT_EQ(table.groups, (1u << shared::kTextureGroupCount) - 1);

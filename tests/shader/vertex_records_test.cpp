@@ -17,7 +17,7 @@ namespace {
 /// fifth has no texture coordinates. The materials differ in what they need.
 Scene randomScene() {
     SceneBuilder builder;
-    Material normalMapped, coloured;
+    duolux::Material normalMapped, coloured;
     normalMapped.textures = {{MaterialInput::kNormal, {}}};
     coloured.textures = {{MaterialInput::kBaseColor, {}}};
     coloured.textures[0].texture.uvSet = 1;
@@ -174,7 +174,7 @@ Scene grid(std::uint32_t n) {
     }
     geometry.normalIndices = geometry.uvIndices = geometry.triangles;
     geometry.materials.assign(geometry.triangles.size(), 0);
-    Material material;
+    duolux::Material material;
     material.textures = {{MaterialInput::kBaseColor, {}}};
     scene.materials = {material};
     return scene;

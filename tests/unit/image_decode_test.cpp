@@ -92,6 +92,26 @@ TEST(ImageDecode, HdrIsLinear) {
     EXPECT_THAT(decoded.image->floats, ElementsAre(1.0f, 0.5f, 0.25f, 1.0f, 1020.0f, 0.0f, 4.0f, 1.0f));
 }
 
+/// Rows compressed by channel, and runs of pixels as in older files.
+TEST(ImageDecode, HdrRowsMayBeCompressed) {
+    const std::uint8_t run = 128 + 7;
+    const Image image = decode(hdrOf(
+        8, 2, {2, 2, 0, 8,   run, 128, 1, 64, 8, 1, 2, 3,  4, 5, 6, 7, 8, 128 + 8, 0, run, 129, 1, 130,  //
+               9, 9, 9, 136, 1,   1,   1, 6,  0, 0, 5, 136}));
+    ASSERT_EQ(image.floats.size(), 4u * 16);
+    for (std::size_t x = 0; x < 8; ++x) {
+        const float unit = x < 7 ? 2.0f / 256.0f : 4.0f / 256.0f;
+        EXPECT_EQ(image.floats[4 * x], (x < 7 ? 128.0f : 64.0f) * unit) << x;
+        EXPECT_EQ(image.floats[4 * x + 1], static_cast<float>(x + 1) * unit) << x;
+        EXPECT_EQ(image.floats[4 * x + 2], 0.0f) << x;
+        EXPECT_EQ(image.floats[4 * (8 + x)], x < 7 ? 9.0f : 0.0f) << x;
+        EXPECT_EQ(image.floats[4 * (8 + x) + 2], x < 7 ? 9.0f : 5.0f) << x;
+    }
+    EXPECT_THAT(failureOf(hdrOf(8, 1, {2, 2, 0, 8, 128 + 9, 1})), HasSubstr("a run beyond the end of a row"));
+    EXPECT_THAT(failureOf(hdrOf(8, 1, {1, 1, 1, 3})), HasSubstr("a run beyond the end of a row"));
+    EXPECT_THAT(failureOf(hdrOf(8, 1, {2, 2, 0, 9})), HasSubstr("has a row of another width"));
+}
+
 TEST(ImageDecode, ExrIsLinear) {
     for (const bool half : {false, true}) {
         const DecodedImage rgb = decodeImage(embedded(exrOf(2, 1, "BGR", half, {3, 2, 1, -6, 0.5f, 4})));
@@ -137,7 +157,7 @@ TEST(ImageDecode, TruncatedFilesAreRefused) {
             EXPECT_NE(failureOf(whole.substr(0, size)), "none") << size;
     }
     const std::string hdr = hdrOf(8, 8, std::vector<std::uint8_t>(4 * 8 * 8, 77));
-    for (std::size_t size = 2; size < 50; ++size)
+    for (std::size_t size = 2; size < hdr.size(); ++size)
         EXPECT_NE(failureOf(hdr.substr(0, size)), "none") << size;
 }
 
