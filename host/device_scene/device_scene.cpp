@@ -175,6 +175,8 @@ DeviceScene assemble(const Device& device, const Scene& scene, MaterialsAndEmitt
                          .planes = triangles.planes,
                          .materials = prepared.materials,
                          .emitters = prepared.table.records,
+                         .textures = {},
+                         .atlas = {},
                          .corners = vertices.corners,
                          .vertices = vertices.vertices,
                          .secondUvs = vertices.secondUvs};

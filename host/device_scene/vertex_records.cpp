@@ -43,7 +43,9 @@ std::uint32_t encodeTangent(std::uint32_t octahedral, const glm::vec4& tangent) 
     const float b = n.x * n.y * a;
     const glm::vec3 x(1.0f + s * n.x * n.x * a, s * b, -s * n.x), y(b, s + n.y * n.y * a, -n.y);
     const glm::vec3 t(tangent);
-    const double turns = std::atan2(glm::dot(t, y), glm::dot(t, x)) / (2.0 * std::numbers::pi);
+    const double turns =
+        std::atan2(static_cast<double>(glm::dot(t, y)), static_cast<double>(glm::dot(t, x))) /
+        (2.0 * std::numbers::pi);
     constexpr std::uint32_t kSteps = 1u << shared::kTangentAngleBits;
     const auto step = static_cast<std::uint32_t>(std::lround((turns + 1.0) * kSteps)) & (kSteps - 1);
     return step | shared::kTangentKnown | (tangent.w < 0.0f ? shared::kTangentNegative : 0u);
@@ -51,8 +53,9 @@ std::uint32_t encodeTangent(std::uint32_t octahedral, const glm::vec4& tangent) 
 
 /// Whether the normals of a triangle's vertices and its tangents are given by the scene.
 bool hasTangents(const Geometry& geometry, std::uint32_t triangle) {
-    if (geometry.tangents.empty() || !isSmoothTriangle(geometry, triangle)) return false;
     const glm::uvec3 uvs = geometry.uvIndices[triangle];
+    if (geometry.tangents.empty() || uvs.x == Geometry::kNoUv || !isSmoothTriangle(geometry, triangle))
+        return false;
     return geometry.tangents[uvs.x].w != 0.0f && geometry.tangents[uvs.y].w != 0.0f &&
            geometry.tangents[uvs.z].w != 0.0f;
 }

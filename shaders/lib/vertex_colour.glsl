@@ -7,9 +7,12 @@
 
 uvec4 fetchColourTexel(uint index);
 
-// Linear RGB from the square roots of the channels, 10 bits each.
+// Three fractions of 10 bits each.
+vec3 decodeFractions(uint bits) { return vec3(uvec3(bits, bits >> 10u, bits >> 20u) & 1023u) * (1.0 / 1023.0); }
+
+// Linear RGB from the square roots of the channels.
 vec3 decodeColour(uint bits) {
-    vec3 root = vec3(uvec3(bits, bits >> 10u, bits >> 20u) & 1023u) * (1.0 / 1023.0);
+    vec3 root = decodeFractions(bits);
     return root * root;
 }
 
@@ -20,10 +23,9 @@ vec3 vertexColour(uint triangle, vec2 barycentric) {
            decodeColour(texel.z) * barycentric.y;
 }
 
-// The interpolated vertex alpha at a point of a triangle, 0 to 1: 10 bits for each vertex.
+// The interpolated vertex alpha at a point of a triangle, 0 to 1.
 float vertexAlpha(uint triangle, vec2 barycentric) {
-    uint bits = fetchColourTexel(triangle * kColourTexels).w;
-    vec3 alphas = vec3(uvec3(bits, bits >> 10u, bits >> 20u) & 1023u) * (1.0 / 1023.0);
+    vec3 alphas = decodeFractions(fetchColourTexel(triangle * kColourTexels).w);
     return alphas.x * (1.0 - barycentric.x - barycentric.y) + alphas.y * barycentric.x + alphas.z * barycentric.y;
 }
 

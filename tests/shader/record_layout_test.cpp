@@ -79,8 +79,13 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
     using mirror::single::Material;
     using mirror::single::ReflectanceMatrix;
     const auto records = sentinels<shared::DeviceMaterial>(kRecords);
-    ShaderLibrary library("shaders/lib/material.glsl");
+    ShaderLibrary library({"shaders/lib/material.glsl", "shaders/lib/material_textures.glsl"});
+    library.define(
+        "uvec4 fetchTextureTexel(uint index) { return uvec4(0u); }"
+        "uvec4 fetchAtlasTexel(uint index) { return uvec4(0u); }");
     library.texels("fetchMaterialTexel", std::span(std::as_const(records)));
+    const auto ranges = library.call<glm::uvec2>("fetchTextureRange", recordIndices());
+    const auto normalScales = library.call<float>("fetchNormalScale", recordIndices());
     const auto materials = library.call<Material>("fetchMaterial", recordIndices());
     const auto opaque = library.call<ReflectanceMatrix>("fetchOpaque", recordIndices());
     const auto transparent = library.call<ReflectanceMatrix>("fetchTransparent", recordIndices());
@@ -97,6 +102,9 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
             }
             return record.ofWords(names);
         };
+        EXPECT_EQ((std::vector<double>{static_cast<double>(ranges[i].x), static_cast<double>(ranges[i].y),
+                                       static_cast<double>(normalScales[i])}),
+                  record.ofWords({"firstTexture", "textureCount", "normalScale"}));
         EXPECT_EQ(numbers(opaque[i]), matrix("opaque"));
         EXPECT_EQ(numbers(transparent[i]), matrix("transparent"));
         record.expectAllFetched();

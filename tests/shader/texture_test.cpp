@@ -213,6 +213,33 @@ TEST(Textures, InputsOfAGroupFromOneImageAreOneLookup) {
     EXPECT_EQ(table.groups, 1u << shared::kGroupBase | 1u << shared::kGroupSurface);
 }
 
+TEST(Textures, LookupsUseTheirOwnCoordinates) {
+    Image image;
+    image.width = 2;
+    image.height = 1;
+    image.floats = {0.25f, 0.25f, 0.25f, 1.0f, 0.75f, 0.75f, 0.75f, 1.0f};
+    duolux::Texture first = textureOf(0), second = textureOf(0);
+    first.filter = second.filter = Filter::kNearest;
+    second.uvSet = 1;
+    const Scene scene =
+        sceneOf({textured({{MaterialInput::kBaseColor, first, 0}, {MaterialInput::kEmission, second, 0}})},
+                {std::make_shared<const Image>(image)});
+    const AtlasPlan plan = planAtlas(scene, 1 << 10);
+    const TextureTable table = makeTextureTable(scene, plan);
+    std::vector<shared::DeviceMaterial> materials = makeMaterialRecords(scene);
+    materials[0].textureCount = table.ranges[0].count;
+    const std::vector<glm::uvec4> atlas = makeAtlas(plan);
+    ShaderLibrary library("shaders/lib/material_textures.glsl");
+    library.texels("fetchTextureTexel", std::span(table.records))
+        .texels("fetchAtlasTexel", std::span(atlas))
+        .texels("fetchMaterialTexel", std::span(std::as_const(materials)))
+        .constant(shared::kSpecTextureGroups, table.groups);
+    const glm::vec2 values = library.evaluate<glm::vec2>(
+        "TextureValues v = sampleTextures(0u, ~0u, x0, x1); result = vec2(v.base.x, v.emission.y);",
+        glm::vec2(0.25f, 0.5f), glm::vec2(0.75f, 0.5f))[0];
+    EXPECT_EQ(values, glm::vec2(0.25f, 0.75f));
+}
+
 /// A texture of one pixel whose channels are these bytes.
 std::shared_ptr<const Image> pixelImage(std::array<std::uint8_t, 4> bytes) {
     Image image;
@@ -258,18 +285,18 @@ TEST(Textures, EveryInputReachesItsComponent) {
         glm::dvec4(colour(5), number(4)),  glm::dvec4(colour(9), number(10)),
         glm::dvec4(colour(12), number(8)), glm::dvec4(colour(11), 1.0),
         glm::dvec4(colour(13), 1.0)};
+    // A material without textures, one with all, and this one where the group is not asked for.
+    const std::vector<std::uint32_t> asked{0, 1, 1};
     for (std::size_t group = 0; group < kFields.size(); ++group) {
-        const auto value = [&](std::uint32_t material, std::uint32_t groups) {
-            return glm::dvec4(library.evaluate<glm::vec4>(
-                fmt::format("result = sampleTextures(x0, x1, vec2(0.5), vec2(0.5)).{};", kFields[group]),
-                material, groups)[0]);
-        };
-        const glm::dvec4 neutral = group == shared::kGroupNormal       ? glm::dvec4(0.5, 0.5, 1, 1)
-                                   : group == shared::kGroupAnisotropy ? glm::dvec4(1, 0.5, 1, 1)
-                                                                       : glm::dvec4(1.0);
-        EXPECT_EQ(value(0, table.groups), neutral) << kFields[group];
-        EXPECT_LT(glm::length(value(1, table.groups) - expected[group]), 1e-6) << kFields[group];
-        EXPECT_EQ(value(1, table.groups & ~(1u << group)), neutral) << kFields[group];
+        const auto values = library.evaluate<glm::vec4>(
+            fmt::format("result = sampleTextures(x0, x1, vec2(0.5), vec2(0.5)).{};", kFields[group]), asked,
+            std::vector<std::uint32_t>{table.groups, table.groups, table.groups & ~(1u << group)});
+        const glm::vec4 neutral = group == shared::kGroupNormal       ? glm::vec4(0.5, 0.5, 1, 1)
+                                  : group == shared::kGroupAnisotropy ? glm::vec4(1, 0.5, 1, 1)
+                                                                      : glm::vec4(1.0);
+        EXPECT_EQ(values[0], neutral) << kFields[group];
+        EXPECT_LT(glm::length(glm::dvec4(values[1]) - expected[group]), 1e-6) << kFields[group];
+        EXPECT_EQ(values[2], neutral) << kFields[group];
     }
 }
 
