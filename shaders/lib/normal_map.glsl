@@ -13,9 +13,9 @@ vec3 mappedNormal(vec3 texel, float scale, TangentFrame frame) {
 }
 
 // Bends a shading normal by as little as keeps the mirror image of `view` (unit, above the geometric normal's horizon)
-// above that horizon, too: otherwise a shiny surface would be black there. The normal is then on the side of `view`
-// (Keller et al., "The Iray Light Transport Simulation and Rendering System", 2017, appendix A.3). Normals that need no
-// bending are returned as they are.
+// above that horizon, too: otherwise a shiny surface would be black there. The result is on the side of `view`
+// (Keller et al., "The Iray Light Transport Simulation and Rendering System", 2017, appendix A.3). Normals there that
+// need no bending are returned as they are.
 vec3 bentNormal(vec3 normal, vec3 geometric, vec3 view) {
     float above = dot(geometric, view);
     if (above <= 0.0) return normal;
@@ -24,7 +24,9 @@ vec3 bentNormal(vec3 normal, vec3 geometric, vec3 view) {
     vec3 mirrored = 2.0 * dot(normal, view) * normal - view;
     float height = dot(geometric, mirrored);
     vec3 raised = normalize(mirrored + geometric * (lowest - height));
-    return height < lowest ? normalize(view + raised) : normal;
+    // Both sides of a normal mirror alike.
+    vec3 facing = dot(normal, view) < 0.0 ? -normal : normal;
+    return height < lowest ? normalize(view + raised) : facing;
 }
 
 // The shading normal on the side of `geometric` (unit). `view`: unit, towards the viewer.

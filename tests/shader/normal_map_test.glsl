@@ -61,8 +61,8 @@ TEST(OtherNormalsAreNotBent) {
     vec3 view = randomView(geometric);
     vec3 n = normalize(geometric + 0.3 * randomDirection());
     vec3 mirrored = 2.0 * dot(n, view) * n - view;
-    bool fine = dot(mirrored, geometric) > 0.01;
-    EXPECT_EQ(bentNormal(n, geometric, view), fine ? n : bentNormal(n, geometric, view));
+    vec3 bent = bentNormal(n, geometric, view);
+    if (dot(n, view) > 0.0 && dot(mirrored, geometric) > 0.01) EXPECT_EQ(bent, n);
     // A viewer below the horizon sees nothing.
     EXPECT_EQ(bentNormal(n, geometric, -view), n);
 }
@@ -70,10 +70,10 @@ TEST(OtherNormalsAreNotBent) {
 // In the plane of the normals: the reflection ends up at the lowest height allowed, and the normal is halfway.
 TEST_N(BentNormalIsHalfwayToTheLowestReflection, 1) {
     vec3 view = normalize(vec3(-1.0, 0.0, 0.5));
-    vec3 n = normalize(vec3(0.8, 0.0, 0.6));
+    vec3 n = normalize(vec3(0.3, 0.0, 0.95));
     vec3 bent = bentNormal(n, vec3(0.0, 0.0, 1.0), view);
     vec3 mirrored = 2.0 * dot(bent, view) * bent - view;
-    EXPECT_NEAR(mirrored.z, 0.01, 2e-3);
+    EXPECT_NEAR(mirrored.z, 0.01, 2e-4);
     EXPECT_GT(mirrored.x, 0.0);
     EXPECT_EQ(bent.y, 0.0);
 }

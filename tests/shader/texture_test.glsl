@@ -53,6 +53,7 @@ Texture image(uint width, uint height, uint flags) {
 
 // The word of pixel (x, y) is 0x10203000 + x + 16 y.
 void setBlocks() {
+    fetched = 0u;
     for (uint y = 0u; y < 4u; y++) {
         for (uint x = 0u; x < 4u; x++) {
             atlas[(y / 2u) * 2u + x / 2u][(x & 1u) + 2u * (y & 1u)] = 0x10203000u + x + 16u * y;

@@ -148,7 +148,7 @@ TEST(VertexRecords, ValuesAreInterpolated) {
     for (const glm::vec4& o : off) {
         EXPECT_LT(o.x, 1e-5f);
         EXPECT_LT(o.y, 1e-6f);
-        EXPECT_LT(o.z, 1e-6f);
+        EXPECT_LT(o.z, 1e-5f);  // where the tangents almost cancel
         EXPECT_LT(o.w, 1e-6f);
     }
 }
