@@ -47,8 +47,9 @@ SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle
     bool behindOthers = kPlanes && crossings > 0u && segment.t == ray.t;
     hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
     if (isTextured(kGroupNormal) && kVertexRecords) {
-        // A loop, because only loops skip what no lane needs.
-        uint mapped = fetchTextureRange(hit.materialIndex).y > 0u ? 1u : 0u;
+        // A loop, because only loops skip what no lane needs. Without a normal map, and where that is flat, the normal
+        // stays as it is.
+        uint mapped = values.normal.xyz == noTextures().normal.xyz ? 0u : 1u;
         for (uint i = 0u; i < mapped; i++) {
             TangentFrame frame = tangentFrameAt(tri, ray.triangle, ray.barycentric, normal);
             hit.point.shadingNormal = normalMapped(values.normal.xyz, fetchNormalScale(hit.materialIndex), frame,
