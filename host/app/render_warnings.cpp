@@ -47,6 +47,7 @@ std::vector<std::string> resultWarnings(const RenderSettings& settings, SampleRa
             percent(statistics.lastBounceRadiance, statistics.meanRadiance),
             percent(statistics.previousBounceRadiance, statistics.meanRadiance)));
     }
+    if (!statistics.shrunkImages.empty()) warnings.push_back(statistics.shrunkImages);
     if (statistics.nonFiniteSamples > 0)
         warnings.push_back(
             fmt::format("{} samples were not finite and were dropped", statistics.nonFiniteSamples));

@@ -13,7 +13,9 @@
 #include "host/device_scene/material_records.h"
 #include "host/device_scene/scene_trees.h"
 #include "host/device_scene/surface_planes.h"
+#include "host/device_scene/textures.h"
 #include "host/device_scene/triangle_records.h"
+#include "host/device_scene/vertex_records.h"
 #include "host/scene/emitters.h"
 
 namespace duolux {
@@ -42,6 +44,7 @@ struct MaterialsAndEmitters {
     std::vector<std::uint32_t> triangles;  ///< that emit, ascending
     EmitterTable table;
     std::vector<shared::DeviceMaterial> materials;
+    std::vector<shared::DeviceTexture> textures;
     LightTransport transport;
 
     MaterialsAndEmitters(const Scene& scene, Integrator integrator)
@@ -61,20 +64,46 @@ struct MaterialsAndEmitters {
             (transport.emitterKinds & ~shared::kEmitterKindsWithClosedForm) == 0;
     }
 
+    /// The lookups of the materials in these images.
+    void setTextures(const Scene& scene, const AtlasPlan& plan) {
+        TextureTable lookups = makeTextureTable(scene, plan);
+        textures = std::move(lookups.records);
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            materials[i].firstTexture = lookups.ranges[i].first;
+            materials[i].textureCount = lookups.ranges[i].count;
+        }
+        transport.textureGroups = lookups.groups;
+        // Neither emission nor normals vary over a surface.
+        if (transport.hasTextures(shared::kGroupEmission) || transport.hasTextures(shared::kGroupNormal))
+            transport.closedFormApplies = false;
+    }
+
     /// The separate tree over emitters serves only rays that no surface blocks.
     bool needsTree() const {
         return transport.traits.transparency == shared::kTransparencyIdentity && !triangles.empty();
     }
 };
 
-/// Emitters that coincide with other surfaces need to know their triangle in device memory.
-void noteCoincident(MaterialsAndEmitters& prepared, const SurfacePlanes& surfaces, const SceneTrees& trees,
-                    std::size_t triangleCount) {
-    const std::vector<std::uint32_t> places = deviceTriangles(trees, triangleCount);
+/// Emitters that coincide with other surfaces, or whose emission has a texture, need to know their triangle
+/// in device memory; the latter have its corners in the same order.
+void noteTriangles(MaterialsAndEmitters& prepared, const Geometry& geometry, const SurfacePlanes& surfaces,
+                   const SceneTrees& trees) {
+    const bool textured = prepared.transport.hasTextures(shared::kGroupEmission);
+    if (!surfaces.used() && !textured) return;
+    const std::vector<std::uint32_t> places = deviceTriangles(trees, geometry.triangles.size());
     for (std::size_t i = 0; i < prepared.triangles.size(); ++i) {
+        const std::uint32_t triangle = prepared.triangles[i], place = places[triangle];
         shared::DeviceEmitter& record = prepared.table.records[i];
-        record.triangle = places[prepared.triangles[i]];
-        if (surfaces.coincident(prepared.triangles[i])) record.flags |= shared::kEmitterCoincident;
+        record.triangle = place;
+        if (surfaces.used() && surfaces.coincident(triangle)) record.flags |= shared::kEmitterCoincident;
+        if (!textured) continue;
+        const std::uint32_t turn = cornersOf(geometry, trees.pairs[place / 2]).value().turns[place % 2];
+        const auto corner = [&](std::uint32_t k) {
+            return geometry.positions[geometry.triangles[triangle][static_cast<int>((turn + k) % 3)]];
+        };
+        record.v0 = corner(0);
+        record.v1 = corner(1);
+        record.v2 = corner(2);
     }
 }
 
@@ -87,11 +116,16 @@ struct SceneRecords {
     std::span<const glm::vec4> planes;
     std::span<const shared::DeviceMaterial> materials;
     std::span<const shared::DeviceEmitter> emitters;
+    std::span<const shared::DeviceTexture> textures;
+    std::span<const glm::uvec4> atlas;
+    std::span<const shared::DeviceCorners> corners;
+    std::span<const shared::DeviceVertex> vertices;
+    std::span<const glm::vec4> secondUvs;
 
     std::uint64_t bytes() const {
-        const auto& [n, t, m, c, p, f, e] = *this;
+        const auto& [n, t, m, c, p, f, e, x, a, k, v, s] = *this;
         const auto sum = [](const auto&... spans) { return (std::uint64_t{spans.size_bytes()} + ...); };
-        return sum(n, t, m, c, p, f, e);
+        return sum(n, t, m, c, p, f, e, x, a, k, v, s);
     }
 };
 
@@ -107,6 +141,11 @@ SceneBuffers uploadRecords(const Device& device, Layout layout, const SceneRecor
         .planes = Buffer::upload(device, Use::kTexels, records.planes, "planes"),
         .materials = Buffer::upload(device, Use::kTexels, records.materials, "materials"),
         .emitters = Buffer::upload(device, Use::kTexels, records.emitters, "emitters"),
+        .textures = Buffer::upload(device, Use::kTexels, records.textures, "textures"),
+        .atlas = Buffer::upload(device, Use::kTexels, records.atlas, "images"),
+        .corners = Buffer::upload(device, Use::kTexels, records.corners, "corners of triangles"),
+        .vertices = Buffer::upload(device, Use::kTexels, records.vertices, "vertices"),
+        .secondUvs = Buffer::upload(device, Use::kTexels, records.secondUvs, "texture coordinates"),
         .albedo = Buffer::upload(device, Use::kTexels, albedoTables(), "albedo tables"),
     };
 }
@@ -127,11 +166,29 @@ DeviceScene assemble(const Device& device, const Scene& scene, MaterialsAndEmitt
 
     start = std::chrono::steady_clock::now();
     const SurfacePlanes surfaces(geometry);
-    const TriangleRecords triangles =
-        makeTriangleRecords(geometry, trees.pairs, TriangleRanks(prepared.triangles), surfaces);
-    if (surfaces.used()) noteCoincident(prepared, surfaces, trees, geometry.triangles.size());
-    const SceneRecords records{trees.nodes,      triangles.pairs,    triangles.normals,     triangles.colours,
-                               triangles.planes, prepared.materials, prepared.table.records};
+    VertexNeeds needs = vertexNeeds(scene);
+    const TriangleRecords triangles = makeTriangleRecords(
+        geometry, trees.pairs, TriangleRanks(prepared.triangles), surfaces, needs.records);
+    const VertexRecords vertices = makeVertexRecords(geometry, trees.pairs, needs);
+    SceneRecords records{.nodes = trees.nodes,
+                         .triangles = triangles.pairs,
+                         .normals = triangles.normals,
+                         .colours = triangles.colours,
+                         .planes = triangles.planes,
+                         .materials = prepared.materials,
+                         .emitters = prepared.table.records,
+                         .textures = {},
+                         .atlas = {},
+                         .corners = vertices.corners,
+                         .vertices = vertices.vertices,
+                         .secondUvs = vertices.secondUvs};
+    const std::uint64_t mostAtlasTexels = largestAtlas(device.info(), records.bytes());
+    AtlasPlan plan = planAtlas(scene, mostAtlasTexels);
+    const std::vector<glm::uvec4> atlas = makeAtlas(plan);
+    prepared.setTextures(scene, plan);
+    noteTriangles(prepared, geometry, surfaces, trees);
+    records.textures = prepared.textures;
+    records.atlas = atlas;
     tuning.layout = layoutThatFits(device.info(), tuning.layout, choice,
                                    std::max(records.nodes.size_bytes(), records.triangles.size_bytes()));
     requireDeviceMemory(device.info(), records.bytes(), scene);
@@ -139,9 +196,12 @@ DeviceScene assemble(const Device& device, const Scene& scene, MaterialsAndEmitt
         .transport = prepared.transport,
         .choice = choice,
         .tuning = tuning,
-        .hasSmoothNormals = !triangles.normals.empty(),
+        .hasSmoothNormals = !geometry.normals.empty(),
         .hasVertexColours = !triangles.colours.empty(),
         .hasPlanes = surfaces.used(),
+        .vertexNeeds = std::move(needs),
+        .atlas = std::move(plan),
+        .mostAtlasTexels = mostAtlasTexels,
         .emitterRoot = trees.emitterRoot,
         .emitterBounds = widenedBounds(geometry, prepared.triangles),
         .buffers = uploadRecords(device, tuning.layout, records),
@@ -211,18 +271,26 @@ void updateScene(DeviceScene& deviceScene, const Device& device, const Scene& sc
     // Emitters are in a tree of their own, and first among surfaces that coincide.
     const bool sameTriangles = (deviceScene.emitterRoot != 0) == prepared.needsTree() &&
                                prepared.triangles == deviceScene.emittingTriangles && !deviceScene.hasPlanes;
-    if (!sameTriangles) {
+    const AtlasPlan plan = planAtlas(scene, deviceScene.mostAtlasTexels);
+    prepared.setTextures(scene, plan);
+    const bool sameTextures = plan == deviceScene.atlas && vertexNeeds(scene) == deviceScene.vertexNeeds &&
+                              !prepared.transport.hasTextures(shared::kGroupEmission) &&
+                              !deviceScene.transport.hasTextures(shared::kGroupEmission);
+    if (!sameTriangles || !sameTextures) {
         DeviceScene updated =
             assemble(device, scene, std::move(prepared), deviceScene.choice, deviceScene.tree);
         updated.tree = std::move(deviceScene.tree);
         deviceScene = std::move(updated);
         return;
     }
+    Buffer textures =
+        Buffer::upload<shared::DeviceTexture>(device, BufferUse::kTexels, prepared.textures, "textures");
     Buffer materials =
         Buffer::upload<shared::DeviceMaterial>(device, BufferUse::kTexels, prepared.materials, "materials");
     deviceScene.buffers.emitters =
         Buffer::upload<shared::DeviceEmitter>(device, BufferUse::kTexels, prepared.table.records, "emitters");
     deviceScene.buffers.materials = std::move(materials);
+    deviceScene.buffers.textures = std::move(textures);
     deviceScene.transport = prepared.transport;
     deviceScene.buildSeconds = 0.0;
     deviceScene.uploadSeconds = secondsSince(start);

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "host/bvh/wide_bvh.h"
+#include "host/device_scene/textures.h"
 #include "host/device_scene/transport.h"
 #include "host/device_scene/tuning.h"
+#include "host/device_scene/vertex_records.h"
 #include "host/scene/scene.h"
 #include "host/vk/acceleration_structure.h"
 #include "host/vk/buffer.h"
@@ -23,13 +25,15 @@ inline constexpr std::size_t kMostClosedFormEmitters = 16;
 struct SceneBuffers {
     Buffer nodes;  ///< empty with Layout::kRayQuery
     Buffer triangles, normals, colours, planes, materials, emitters;
+    Buffer textures, atlas, corners, vertices, secondUvs;
     Buffer albedo;  ///< the tables of shaders/shared/albedo_layout.h
 };
 
 /// Calls visit(binding, buffer) for every buffer: a further one does not compile until it is handled here.
 template <typename Visit>
 void forEachBuffer(const SceneBuffers& buffers, Visit&& visit) {
-    const auto& [nodes, triangles, normals, colours, planes, materials, emitters, albedo] = buffers;
+    const auto& [nodes, triangles, normals, colours, planes, materials, emitters, textures, atlas, corners,
+                 vertices, secondUvs, albedo] = buffers;
     visit(shared::kBindingNodes, nodes);
     visit(shared::kBindingTriangles, triangles);
     visit(shared::kBindingNormals, normals);
@@ -37,6 +41,11 @@ void forEachBuffer(const SceneBuffers& buffers, Visit&& visit) {
     visit(shared::kBindingPlanes, planes);
     visit(shared::kBindingMaterials, materials);
     visit(shared::kBindingEmitters, emitters);
+    visit(shared::kBindingTextures, textures);
+    visit(shared::kBindingAtlas, atlas);
+    visit(shared::kBindingCorners, corners);
+    visit(shared::kBindingVertices, vertices);
+    visit(shared::kBindingSecondUvs, secondUvs);
     visit(shared::kBindingAlbedo, albedo);
 }
 
@@ -49,6 +58,9 @@ struct LightTransport {
     std::uint32_t emitterKinds = 0;    ///< sum of shared::kEmitterKind...
     std::uint32_t emitterChoices = 0;  ///< as in EmitterTable
     double brightestEmission = 0.0;    ///< as duolux::brightestEmission
+    std::uint32_t textureGroups = 0;   ///< as TextureTable::groups
+
+    bool hasTextures(std::uint32_t group) const { return (textureGroups >> group & 1u) != 0; }
 };
 
 /// A scene in device memory.
@@ -57,7 +69,10 @@ struct DeviceScene {
     TuningChoice choice;  ///< the caller's, from which `tuning` follows
     Tuning tuning;
     bool hasSmoothNormals = false, hasVertexColours = false;
-    bool hasPlanes = false;         ///< distances are computed from stored planes, see SurfacePlanes
+    bool hasPlanes = false;   ///< distances are computed from stored planes, see SurfacePlanes
+    VertexNeeds vertexNeeds;  ///< for which the buffers were made
+    AtlasPlan atlas;          ///< of the images in the buffers; its warning is for the user
+    std::uint64_t mostAtlasTexels = 0;
     std::uint32_t emitterRoot = 0;  ///< as in shared::PathParams
     Bounds emitterBounds{};  ///< of the emitting triangles, enlarged by more than the rounding error of a hit
     double buildSeconds = 0.0, uploadSeconds = 0.0;
@@ -85,8 +100,9 @@ DeviceScene uploadScene(const Device& device, const Scene& scene,
                         Integrator integrator = Integrator::kPathTracer, const TuningChoice& choice = {});
 
 /// Brings the device up to date with a scene of the same geometry whose materials, reflectances and point
-/// emitters may be others, and the integrator, too. Uploads only the records of materials and emitters if the
-/// same triangles emit as before, no surfaces coincide (DeviceScene::hasPlanes), and light passes unchanged
+/// emitters may be others, and the integrator, too. Uploads only the records of materials, their textures and
+/// emitters if the same triangles emit as before and without textures, the materials use the same images and
+/// parts of vertices, no surfaces coincide (DeviceScene::hasPlanes), and light passes unchanged
 /// through all surfaces (kTransparencyIdentity, which requires a tree over the emitters) before and after, or
 /// neither. Otherwise uploads all again: the tree over all triangles is kept on the host, and that over the
 /// emitters is built; with Layout::kRayQuery the driver builds its whole structure again. Throws as

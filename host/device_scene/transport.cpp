@@ -10,6 +10,11 @@ bool any(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
 
+bool hasTexture(const Material& material, MaterialInput input) {
+    return std::ranges::any_of(material.textures,
+                               [&](const MaterialTexture& entry) { return entry.input == input; });
+}
+
 /// The entries that are non-zero in any of the matrices: bit j of row i.
 struct Pattern {
     unsigned row[2] = {0, 0};

@@ -5,23 +5,11 @@
 #include <cstdint>
 
 #include "host/base/parallel.h"
+#include "host/device_scene/octahedral.h"
 
 namespace duolux {
 
 namespace {
-
-std::uint32_t octahedralEncode(glm::vec3 n) {
-    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    glm::vec2 e(n.x, n.y);
-    if (n.z < 0.0f) {
-        e = {(1.0f - std::abs(n.y)) * (n.x >= 0.0f ? 1.0f : -1.0f),
-             (1.0f - std::abs(n.x)) * (n.y >= 0.0f ? 1.0f : -1.0f)};
-    }
-    const auto snorm = [](float x) {
-        return static_cast<std::uint32_t>(std::lround(glm::clamp(x, -1.0f, 1.0f) * 32767.0f)) & 0xffffu;
-    };
-    return snorm(e.x) | snorm(e.y) << 16;
-}
 
 /// See decodeColour in shaders/lib/vertex_colour.glsl.
 std::uint32_t encodeColour(const glm::vec3& colour) {
@@ -59,23 +47,30 @@ shared::DeviceNormals deviceNormals(const Geometry& geometry, std::uint32_t tria
     return {{normal(0), normal(1), normal(2)}, 0};
 }
 
-/// As deviceNormals.
+/// As deviceNormals. White and opaque where the geometry has no colours or alphas.
 shared::DeviceColours deviceColours(const Geometry& geometry, std::uint32_t triangle, std::uint32_t turn) {
     const glm::uvec3 index = geometry.triangles[triangle];
-    const auto colour = [&](std::uint32_t corner) {
-        return encodeColour(geometry.colours[index[static_cast<int>((turn + corner) % 3)]]);
-    };
-    return {{colour(0), colour(1), colour(2)}, 0};
+    shared::DeviceColours record{};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t position = index[static_cast<int>((turn + k) % 3)];
+        record.roots[k] =
+            encodeColour(geometry.colours.empty() ? glm::vec3(1.0f) : geometry.colours[position]);
+        const float alpha = geometry.alphas.empty() ? 1.0f : geometry.alphas[position];
+        record.alphas |= static_cast<std::uint32_t>(std::lround(glm::clamp(alpha, 0.0f, 1.0f) * 1023.0f))
+                         << (10 * k);
+    }
+    return record;
 }
 
 }  // namespace
 
 TriangleRecords makeTriangleRecords(const Geometry& geometry, std::span<const TrianglePair> pairs,
-                                    const TriangleRanks& ranks, const SurfacePlanes& surfaces) {
+                                    const TriangleRanks& ranks, const SurfacePlanes& surfaces,
+                                    bool vertexRecords) {
     TriangleRecords out;
     out.pairs.resize(pairs.size());
-    if (!geometry.normals.empty()) out.normals.resize(2 * pairs.size());
-    if (!geometry.colours.empty()) out.colours.resize(2 * pairs.size());
+    if (!geometry.normals.empty() && !vertexRecords) out.normals.resize(2 * pairs.size());
+    if (!geometry.colours.empty() || !geometry.alphas.empty()) out.colours.resize(2 * pairs.size());
     if (surfaces.used()) out.planes.resize(2 * pairs.size());
     parallelFor(pairs.size(), 1 << 15, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -20,8 +20,10 @@ struct TriangleRecords {
     std::vector<glm::vec4> planes;
 };
 
-/// In the order of `pairs`, which are pairs of the geometry's triangles.
+/// In the order of `pairs`, which are pairs of the geometry's triangles. `vertexRecords`: normals are those
+/// of vertices (VertexRecords), so that triangles have none.
 TriangleRecords makeTriangleRecords(const Geometry& geometry, std::span<const TrianglePair> pairs,
-                                    const TriangleRanks& ranks, const SurfacePlanes& surfaces);
+                                    const TriangleRanks& ranks, const SurfacePlanes& surfaces,
+                                    bool vertexRecords = false);
 
 }  // namespace duolux

@@ -25,6 +25,20 @@ RadianceImage decodeDisplayedExr(std::string_view bytes,
 RadianceImage decodePng(std::string_view bytes, const std::string& file);
 RadianceImage decodePfm(std::string_view bytes, const std::string& file);
 
+/// The pixels of an image as four floats each, rows from the top.
+struct RgbaImage {
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> values;
+};
+
+/// The channels R, G, B, or Y for all three, and A, or 1. Values may be non-finite.
+RgbaImage decodeRgbaExr(std::string_view bytes, const std::string& file);
+
+/// The chunks of a PNG file that its pixels need and, if `colourSpace`, those that describe their colours.
+/// libpng allocates as much memory as a chunk's length claims, and inflates text. Therefore lengths are
+/// checked against the size of the file, and other chunks are left out. Throws InputError.
+std::string essentialPngChunks(std::string_view bytes, const std::string& file, bool colourSpace);
+
 /// Width and height of the largest readable image, in pixels.
 inline constexpr int kMaxImageSide = 65536;
 

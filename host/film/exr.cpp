@@ -11,6 +11,7 @@
 #include <cstring>
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
@@ -151,7 +152,15 @@ void encodeExr(const ImageRows& rows, const ImageOptions& options, FileWriter& o
 
 namespace {
 
-RadianceImage decode(std::string_view bytes, const std::string& file, bool displayedOnly) {
+/// Where an image of this size has the pixels of a data window: the number of pixels before (0, 0).
+struct Window {
+    std::uint32_t width, height;
+    std::ptrdiff_t shift;
+};
+
+/// Opens a file and calls read(input, window), which inserts slices and returns the image.
+template <typename Read>
+auto readExr(std::string_view bytes, const std::string& file, const Read& read) {
     static const bool kLimited = [] {
         Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
         return true;
@@ -161,6 +170,28 @@ RadianceImage decode(std::string_view bytes, const std::string& file, bool displ
     try {
         MemoryInput memory(bytes);
         Imf::InputFile input(memory);
+        const Imath::Box2i window = input.header().dataWindow();
+        const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+        const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+        checkImageSize(width, height, bytes.size(), file);
+        const std::ptrdiff_t shift = window.min.x + window.min.y * static_cast<std::ptrdiff_t>(width);
+        return read(input,
+                    Window{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), shift});
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& e) {
+        throw InputError(file, "", std::string("is not a readable OpenEXR image: ") + e.what(), "");
+    }
+}
+
+void readPixels(Imf::InputFile& input, const Imf::FrameBuffer& frame) {
+    const Imath::Box2i window = input.header().dataWindow();
+    input.setFrameBuffer(frame);
+    input.readPixels(window.min.y, window.max.y);
+}
+
+RadianceImage decode(std::string_view bytes, const std::string& file, bool displayedOnly) {
+    return readExr(bytes, file, [&](Imf::InputFile& input, const Window& window) {
         const Imf::ChannelList& channels = input.header().channels();
         const ChannelNames displayed = channelsOf(""), invisible = channelsOf("invisible"),
                            visible = channelsOf("visible");
@@ -171,27 +202,49 @@ RadianceImage decode(std::string_view bytes, const std::string& file, bool displ
             throw InputError(file, "", "has no colour channels",
                              "expected R, G, B, or invisible.R/G/B and visible.R/G/B");
         }
-        const Imath::Box2i window = input.header().dataWindow();
-        const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-        const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-        checkImageSize(width, height, bytes.size(), file);
-        RadianceImage image =
-            makeImage(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-        const std::ptrdiff_t shift = window.min.x + window.min.y * static_cast<std::ptrdiff_t>(width);
+        RadianceImage image = makeImage(window.width, window.height);
         Imf::FrameBuffer frame;
-        if (both) addSlices(frame, invisible, floatsOf(image.invisible.data() - shift), image.width);
-        addSlices(frame, both ? visible : displayed, floatsOf(image.visible.data() - shift), image.width);
-        input.setFrameBuffer(frame);
-        input.readPixels(window.min.y, window.max.y);
+        if (both) addSlices(frame, invisible, floatsOf(image.invisible.data() - window.shift), image.width);
+        addSlices(frame, both ? visible : displayed, floatsOf(image.visible.data() - window.shift),
+                  image.width);
+        readPixels(input, frame);
         return image;
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& e) {
-        throw InputError(file, "", std::string("is not a readable OpenEXR image: ") + e.what(), "");
-    }
+    });
 }
 
 }  // namespace
+
+RgbaImage decodeRgbaExr(std::string_view bytes, const std::string& file) {
+    return readExr(bytes, file, [&](Imf::InputFile& input, const Window& window) {
+        const Imf::ChannelList& channels = input.header().channels();
+        const bool grey = !hasChannels(channels, channelsOf("")) && hasChannels(channels, {"Y"}) &&
+                          channels.findChannel("RY") == nullptr;
+        if (!grey && !hasChannels(channels, channelsOf("")))
+            throw InputError(file, "", "has no colour channels", "expected R, G, B, or Y");
+        RgbaImage image{window.width, window.height, {}};
+        image.values.resize(std::size_t{4} * window.width * window.height);
+        constexpr std::size_t kPixelBytes = 4 * sizeof(float);
+        char* const origin = reinterpret_cast<char*>(image.values.data()) -
+                             window.shift * static_cast<std::ptrdiff_t>(kPixelBytes);
+        const auto slice = [&](std::size_t component) {
+            constexpr double kOpaque = 1.0;  // for a missing alpha
+            return Imf::Slice(Imf::FLOAT, origin + component * sizeof(float), kPixelBytes,
+                              window.width * kPixelBytes, 1, 1, kOpaque);
+        };
+        Imf::FrameBuffer frame;
+        frame.insert("A", slice(3));
+        if (grey) {
+            frame.insert("Y", slice(0));
+        } else {
+            for (const auto& [name, component] : {std::pair{"R", 0}, std::pair{"G", 1}, std::pair{"B", 2}})
+                frame.insert(name, slice(static_cast<std::size_t>(component)));
+        }
+        readPixels(input, frame);
+        for (std::size_t i = 0; grey && i < image.values.size(); i += 4)
+            image.values[i + 1] = image.values[i + 2] = image.values[i];
+        return image;
+    });
+}
 
 RadianceImage decodeExr(std::string_view bytes, const std::string& file) {
     return decode(bytes, file, false);

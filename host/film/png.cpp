@@ -127,14 +127,15 @@ std::uint32_t number(std::string_view bytes) {
     return value;
 }
 
-/// The chunks of a PNG file that libpng needs. libpng allocates as much memory as a chunk's length claims,
-/// and inflates text. Therefore lengths are checked against the size of the file, and only chunks that affect
-/// the image are passed on.
-std::string essentialChunks(std::string_view bytes, const std::string& file) {
+}  // namespace
+
+std::string essentialPngChunks(std::string_view bytes, const std::string& file, bool colourSpace) {
     constexpr std::size_t kSignature = 8,
                           kAround = 12;  // length and type before the data of a chunk, CRC after
     constexpr std::array<std::string_view, 10> kEssential{"IHDR", "PLTE", "IDAT", "IEND", "tRNS",
                                                           "gAMA", "cHRM", "sRGB", "sBIT", "iCCP"};
+    constexpr std::size_t kPixelChunks = 5;  // the first of them
+    const auto essential = std::span(kEssential).first(colourSpace ? kEssential.size() : kPixelChunks);
     constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", kSignature);
     if (!bytes.starts_with(kPng)) {
         throw InputError(file, "", "is not a PNG image despite its name", "expected a PNG image");
@@ -155,7 +156,7 @@ std::string essentialChunks(std::string_view bytes, const std::string& file) {
                 "expected a complete file");
         }
         const std::string_view chunk = bytes.substr(at, kAround + static_cast<std::size_t>(length));
-        if (std::ranges::find(kEssential, type) != kEssential.end()) out += chunk;
+        if (std::ranges::find(essential, type) != essential.end()) out += chunk;
         if (type == "IDAT") imageBytes += length;
         if (type == "IHDR" && length >= 13) header = chunk.substr(8);
         if (type == "IEND") break;
@@ -176,8 +177,6 @@ std::string essentialChunks(std::string_view bytes, const std::string& file) {
     }
     return out;
 }
-
-}  // namespace
 
 void encodePng(const ImageRows& rows, const ImageOptions& options, FileWriter& out) {
     const std::vector<png_text> texts = toText(options);
@@ -202,7 +201,7 @@ void encodePng(const ImageRows& rows, const ImageOptions& options, FileWriter& o
 RadianceImage decodePng(std::string_view bytes, const std::string& file) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    const std::string chunks = essentialChunks(bytes, file);
+    const std::string chunks = essentialPngChunks(bytes, file, true);
     if (png_image_begin_read_from_memory(&png, chunks.data(), chunks.size()) == 0) throwUnreadable(png, file);
     std::vector<png_byte> pixels;
     try {

@@ -88,6 +88,9 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
             {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
             {shared::kSpecVertexColours, deviceScene.hasVertexColours},
+            {shared::kSpecTextureGroups, deviceScene.transport.textureGroups},
+            {shared::kSpecVertexRecords, deviceScene.vertexNeeds.records},
+            {shared::kSpecSecondUvs, deviceScene.vertexNeeds.secondUvs},
             {shared::kSpecPlanes, deviceScene.hasPlanes},
             {shared::kSpecSampler, deviceKind(settings.sampler)},
             {shared::kSpecTeamSize, tuning.lanes}};

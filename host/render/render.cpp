@@ -187,6 +187,7 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
     statistics.tuning = context.deviceScene.tuning;
     statistics.buildSeconds = context.deviceScene.buildSeconds;
     statistics.uploadSeconds = context.deviceScene.uploadSeconds;
+    statistics.shrunkImages = context.deviceScene.atlas.warning;
     const std::uint32_t mostScatterings = context.deviceScene.transport.traits.mostScatterings;
     statistics.effectiveBounces = std::min(settings.bounces, mostScatterings);
     statistics.limitedByBounces = settings.bounces < mostScatterings;

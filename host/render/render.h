@@ -96,6 +96,7 @@ struct RenderStatistics {
     std::uint64_t nonFiniteSamples = 0;  ///< dropped; 0 unless something is wrong
     bool filmOverflowed = false;         ///< some radiance exceeded Film::largestRadiance
     std::uint64_t deviceBytes = 0;       ///< peak
+    std::string shrunkImages;            ///< as AtlasPlan::warning
     /// Displayed radiance (mean over pixels and channels) of the last allowed bounce, of the bounce before
     /// it, and of the whole image.
     double lastBounceRadiance = 0.0, previousBounceRadiance = 0.0, meanRadiance = 0.0;

@@ -73,7 +73,14 @@ bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* 
         const double length = glm::length(world);
         normal = length > 0.0 ? glm::vec3(world / length) : glm::vec3(0.0f);
     }
-    if (glm::determinant(linear) < 0.0) {
+    const bool mirrors = glm::determinant(linear) < 0.0;
+    for (glm::vec4& tangent : geometry.tangents) {
+        const glm::dvec3 world = linear * glm::dvec3(tangent);
+        const double length = glm::length(world);
+        tangent =
+            length > 0.0 ? glm::vec4(world / length, mirrors ? -tangent.w : tangent.w) : glm::vec4(0.0f);
+    }
+    if (mirrors) {
         forEachField(geometry, []<typename Item>(const GeometryField<Item>& field, std::vector<Item>& items) {
             if constexpr (std::is_same_v<Item, glm::uvec3>) {
                 if (!field.indexes) return;
@@ -103,6 +110,17 @@ bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneO
 Composer::Composer(LoadedScene& scene) : scene_(scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         materials_.try_emplace(scene.materials[i], static_cast<std::uint32_t>(i));
+    for (std::size_t i = 0; i < scene.imageSources.size(); ++i) {
+        const ImageSource& image = scene.imageSources[i];
+        images_.try_emplace({image.path, image.bytes.get()}, static_cast<std::uint32_t>(i));
+    }
+}
+
+std::uint32_t Composer::indexOf(const ImageSource& image) {
+    const auto next = static_cast<std::uint32_t>(scene_.imageSources.size());
+    const auto [entry, isNew] = images_.try_emplace({image.path, image.bytes.get()}, next);
+    if (isNew) scene_.imageSources.push_back(image);
+    return entry->second;
 }
 
 std::uint32_t Composer::indexOf(const Material& material) {
@@ -126,9 +144,14 @@ void Composer::append(Mesh mesh) {
         leftOut.dropped += dropped;
         leftOut.all += all;
     }
-    std::vector<std::uint32_t> indices;
-    for (const Material& material : mesh.materials)
+    std::vector<std::uint32_t> images, indices;
+    for (const ImageSource& image : mesh.images)
+        images.push_back(indexOf(image));
+    for (Material& material : mesh.materials) {
+        for (MaterialTexture& entry : material.textures)
+            entry.texture.image = images[entry.texture.image];
         indices.push_back(indexOf(material));
+    }
     for (std::uint32_t& material : mesh.geometry.materials)
         material = indices[material];
     appendGeometry(scene_.geometry, std::move(mesh.geometry));

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "host/scene/hash.h"
 #include "host/scene/mesh.h"
@@ -15,9 +16,9 @@
 namespace duolux {
 
 /// Transforms from object to world. Normals are transformed by the inverse transpose. A mirroring transform
-/// reverses the winding, so that fronts remain fronts. The upper left 3x3 must be regular. Returns false if a
-/// coordinate exceeds kLargestCoordinate. `roundingError`: the largest distance by which rounding moves a
-/// position.
+/// reverses the winding, so that fronts remain fronts, and the sides of bitangents. The upper left 3x3 must
+/// be regular. Returns false if a coordinate exceeds kLargestCoordinate. `roundingError`: the largest
+/// distance by which rounding moves a position.
 bool transformGeometry(Geometry& geometry, const glm::dmat4& transform, double* roundingError = nullptr);
 
 /// Places a mesh, in the coordinates of its file, in a scene of the given origin, which becomes the mesh's.
@@ -38,9 +39,9 @@ class Composer {
   public:
     explicit Composer(LoadedScene& scene);
 
-    /// Adds the triangles, materials and point emitters of a mesh, whose origin must be the scene's; a material equal to one
-    /// that the scene has is shared. Triangles without area are left out. Throws InputError if there would be
-    /// too many triangles.
+    /// Adds the triangles, materials, images and point emitters of a mesh, whose origin must be the scene's; a
+    /// material or an image equal to one that the scene has is shared. Triangles without area are left out.
+    /// Throws InputError if there would be too many triangles.
     void append(Mesh mesh);
 
     /// Adds two triangles (none if they have no area).
@@ -48,6 +49,9 @@ class Composer {
 
     /// Adds a warning for each mesh file of which triangles were left out.
     void finish();
+
+    /// The index of an image in LoadedScene::imageSources, to which it is added if it is new.
+    std::uint32_t indexOf(const ImageSource& image);
 
   private:
     std::uint32_t indexOf(const Material& material);
@@ -58,6 +62,7 @@ class Composer {
 
     LoadedScene& scene_;
     std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
+    std::map<std::pair<std::filesystem::path, const std::string*>, std::uint32_t> images_;
     std::map<std::filesystem::path, LeftOut> leftOut_;
 };
 

@@ -7,6 +7,7 @@
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/base/printable.h"
+#include "host/image/scene_images.h"
 #include "host/loaders/scene_file.h"
 #include "host/scene/emitters.h"
 #include "host/scene/energy.h"
@@ -137,6 +138,7 @@ void chooseBounces(LoadedScene& scene, const SceneFile& read, const SceneChoices
 LoadedScene load(const std::filesystem::path& path, const SceneChoices& choices) {
     SceneFile read = readSceneFile(path, choices.reading);
     LoadedScene scene = std::move(read.scene);
+    decodeImages(scene, choices.reading);
     if (choices.size) {
         scene.settings.width = choices.size->x;
         scene.settings.height = choices.size->y;

@@ -13,12 +13,18 @@ layout(binding = kBindingEmitters, rgba32ui) uniform readonly uimageBuffer emitt
 layout(binding = kBindingPlanes, rgba32ui) uniform readonly uimageBuffer planeTexels;
 layout(binding = kBindingColours, rgba32ui) uniform readonly uimageBuffer colourTexels;
 layout(binding = kBindingAlbedo, rgba32ui) uniform readonly uimageBuffer albedoTexels;
+layout(binding = kBindingTextures, rgba32ui) uniform readonly uimageBuffer textureTexels;
+layout(binding = kBindingAtlas, rgba32ui) uniform readonly uimageBuffer atlasTexels;
+layout(binding = kBindingCorners, rgba32ui) uniform readonly uimageBuffer cornerTexels;
+layout(binding = kBindingVertices, rgba32ui) uniform readonly uimageBuffer vertexTexels;
+layout(binding = kBindingSecondUvs, rgba32ui) uniform readonly uimageBuffer secondUvTexels;
 layout(binding = kBindingParams, scalar) uniform ParamsBlock { PathParams params; };
 layout(binding = kBindingTeams, scalar) buffer TeamsBlock { TeamProgress teams[]; };
 
 #include "shaders/kernels/layout.glsl"
 #include "shaders/lib/camera.glsl"
 #include "shaders/lib/emitter.glsl"
+#include "shaders/lib/material_textures.glsl"
 #include "shaders/lib/sampler.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/transport.glsl"
@@ -30,6 +36,33 @@ uvec4 fetchEmitterTexel(uint index) { return imageLoad(emitterTexels, int(index)
 uvec4 fetchPlaneTexel(uint index) { return imageLoad(planeTexels, int(index)); }
 uvec4 fetchColourTexel(uint index) { return imageLoad(colourTexels, int(index)); }
 uvec4 fetchAlbedoTexel(uint index) { return imageLoad(albedoTexels, int(index)); }
+uvec4 fetchTextureTexel(uint index) { return imageLoad(textureTexels, int(index)); }
+uvec4 fetchAtlasTexel(uint index) { return imageLoad(atlasTexels, int(index)); }
+uvec4 fetchCornerTexel(uint index) { return imageLoad(cornerTexels, int(index)); }
+uvec4 fetchVertexTexel(uint index) { return imageLoad(vertexTexels, int(index)); }
+uvec4 fetchSecondUvTexel(uint index) { return imageLoad(secondUvTexels, int(index)); }
+
+// What a triangle's textures of these groups say at a point, see sampleTextures().
+TextureValues texturesAt(uint triangle, uint material, uint groups, vec2 barycentric) {
+    TextureValues values = noTextures();
+    if (kTextureGroups == 0u) return values;
+    // A loop, because only loops skip what no lane needs.
+    uint textured = min(fetchTextureRange(material).y, 1u);
+    for (uint i = 0u; i < textured; i++) {
+        vec2 uv = vec2(0.0), secondUv = vec2(0.0);
+        if (kVertexRecords) {
+            uv = vertexUv(fetchVertices(triangle), barycentric);
+            secondUv = secondVertexUv(triangle, barycentric);
+        }
+        values = sampleTextures(material, groups, uv, secondUv);
+    }
+    return values;
+}
+
+vec3 emissionTexel(uint triangle, vec2 barycentric) {
+    uint material = fetchTriangle(triangle).materialFlags & kMaterialMask;
+    return texturesAt(triangle, material, 1u << kGroupEmission, barycentric).emission.xyz;
+}
 
 ReflectanceMatrix fromDevice(DeviceReflectanceMatrix m) { return ReflectanceMatrix(m.m00, m.m01, m.m10, m.m11); }
 ReflectanceMatrix sceneOpaque() { return fromDevice(params.opaque); }

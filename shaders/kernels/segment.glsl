@@ -1,5 +1,6 @@
 // What both integrators do along a segment of a path.
 #include "shaders/lib/material.glsl"
+#include "shaders/lib/normal_map.glsl"
 #include "shaders/lib/vertex.glsl"
 
 // A surface that a ray along a segment has met.
@@ -8,12 +9,31 @@ struct SurfaceHit {
     Material material;
     Bsdf bsdf;
     SurfacePoint point;
-    bool front;    // the ray arrives at the triangle's front
-    float cosine;  // between the ray and the normal of the front
+    bool front;          // the ray arrives at the triangle's front
+    float cosine;        // between the ray and the normal of the front
+    vec3 emissionTexel;  // scales what the surface emits
 };
 
-// `crossings`: surfaces crossed on the segment before.
-SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle tri) {
+// Scales the parameters of a material by its textures.
+void applyTextures(inout Material material, TextureValues values) {
+    if (isTextured(kGroupBase)) material.baseColor *= values.base.xyz;
+    if (isTextured(kGroupSurface)) {
+        material.metallic *= values.surface.x;
+        material.roughness *= values.surface.y;
+        material.transmission *= values.surface.z;
+        material.clearcoat *= values.surface.w;
+    }
+}
+
+// The frame of the tangent at a point of a triangle whose front has the unit normal `front`.
+TangentFrame tangentFrameAt(Triangle tri, uint triangle, vec2 barycentric, vec3 front) {
+    VertexRecords vertices = fetchVertices(triangle);
+    bool isSmooth = (tri.materialFlags & kTriangleSmooth) != 0u;
+    return tangentFrame(vertices, barycentric, isSmooth ? vertexNormal(vertices, barycentric) : front);
+}
+
+// `crossings`: surfaces crossed on the segment before. `viewer`: unit, from the point towards who looks at it.
+SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle tri, vec3 viewer) {
     SurfaceHit hit;
     hit.materialIndex = tri.materialFlags & kMaterialMask;
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
@@ -21,9 +41,25 @@ SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle
     hit.front = hit.cosine < 0.0;
     hit.material = fetchMaterial(hit.materialIndex);
     if (kVertexColours) hit.material.baseColor *= vertexColour(ray.triangle, ray.barycentric);
+    TextureValues values = noTextures();
+    if (kTextureGroups != 0u) {
+        values = texturesAt(ray.triangle, hit.materialIndex, kTextureGroups, ray.barycentric);
+        applyTextures(hit.material, values);
+    }
+    hit.emissionTexel = values.emission.xyz;
     hit.bsdf = bsdfOf(hit.material, hit.front);
     bool behindOthers = kPlanes && crossings > 0u && segment.t == ray.t;
     hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
+    if (isTextured(kGroupNormal) && kVertexRecords) {
+        // A loop, because only loops skip what no lane needs. Without a normal map, and where that is flat, the normal
+        // stays as it is.
+        uint mapped = values.normal.xyz == noTextures().normal.xyz ? 0u : 1u;
+        for (uint i = 0u; i < mapped; i++) {
+            TangentFrame frame = tangentFrameAt(tri, ray.triangle, ray.barycentric, normal);
+            hit.point.shadingNormal = normalMapped(values.normal.xyz, fetchNormalScale(hit.materialIndex), frame,
+                                                   hit.point.geometricNormal, viewer);
+        }
+    }
     hit.point = placedByPlane(hit.point, segment.origin + segment.direction * ray.t, behindOthers);
     return hit;
 }
@@ -61,7 +97,8 @@ bool survives(uvec2 stream, uint scatterings, uint crossings, float weight, out 
 
 // Without smooth normals a vertex need not keep both normals.
 BsdfFrame frameOf(SurfacePoint point) {
-    return BsdfFrame(kSmoothNormals ? point.shadingNormal : point.geometricNormal, point.geometricNormal, vec3(0.0));
+    bool bent = kSmoothNormals || isTextured(kGroupNormal);
+    return BsdfFrame(bent ? point.shadingNormal : point.geometricNormal, point.geometricNormal, vec3(0.0));
 }
 
 // A ray that leaves a point at which the BSDF scatters.

@@ -22,7 +22,12 @@ DUOLUX_CONST uint kBindingLayers = 11u;    // storage: sums of the film's option
 DUOLUX_CONST uint kBindingColours = 12u;   // texels: DeviceColours, kSpecVertexColours only
 DUOLUX_CONST uint kBindingRays = 13u;      // texels: TraceRay, two texels each
 DUOLUX_CONST uint kBindingHits = 14u;      // storage: TraceHit
-DUOLUX_CONST uint kBindingAlbedo = 15u;    // texels: the tables of albedo_layout.h
+DUOLUX_CONST uint kBindingTextures = 15u;  // texels: DeviceTexture
+DUOLUX_CONST uint kBindingAtlas = 16u;     // texels: the pixels of all images
+DUOLUX_CONST uint kBindingCorners = 17u;   // texels: DeviceCorners, kSpecVertexRecords only
+DUOLUX_CONST uint kBindingVertices = 18u;  // texels: DeviceVertex, kSpecVertexRecords only
+DUOLUX_CONST uint kBindingSecondUvs = 19u;  // texels: two vertices each, kSpecSecondUvs only
+DUOLUX_CONST uint kBindingAlbedo = 20u;    // texels: the tables of albedo_layout.h
 
 // Specialisation constants.
 DUOLUX_CONST uint kSpecWorkgroupSize = 0u;
@@ -49,11 +54,15 @@ DUOLUX_CONST uint kSpecEmittingTriangles = 18u;  // some triangle emits
 DUOLUX_CONST uint kSpecDirectLight = 19u;        // one of kDirectLight...
 DUOLUX_CONST uint kSpecCamera = 20u;             // one of kCamera...
 DUOLUX_CONST uint kSpecSampler = 21u;            // one of kSampler...
-DUOLUX_CONST uint kSpecFilmLayers = 22u;  // the optional layers: bit i stands for the layer with index i
-DUOLUX_CONST uint kSpecFilmBands = 23u;   // buffers of the light tracer's film
-DUOLUX_CONST uint kSpecBandPixels = 24u;  // pixels of each of them but the last
-DUOLUX_CONST uint kSpecTraceMode = 25u;   // one of kTrace...
-DUOLUX_CONST uint kSpecCount = 26u;       // count visits and tests, which makes the traversal slower
+DUOLUX_CONST uint kSpecFilmLayers = 22u;     // the optional layers: bit i stands for the layer with index i
+DUOLUX_CONST uint kSpecFilmBands = 23u;      // buffers of the light tracer's film
+DUOLUX_CONST uint kSpecBandPixels = 24u;     // pixels of each of them but the last
+DUOLUX_CONST uint kSpecTraceMode = 25u;      // one of kTrace...
+DUOLUX_CONST uint kSpecCount = 26u;          // count visits and tests, which makes the traversal slower
+DUOLUX_CONST uint kSpecTextureGroups = 27u;  // bits of the kGroup... that any material has textures for
+// Normals and texture coordinates are those of vertices (DeviceVertex).
+DUOLUX_CONST uint kSpecVertexRecords = 28u;
+DUOLUX_CONST uint kSpecSecondUvs = 29u;  // some texture has the second set of texture coordinates
 
 DUOLUX_END
 #endif

@@ -88,7 +88,7 @@ struct PixelResult {
 
 // Records fetched as texels of 4 x uint32.
 DUOLUX_CONST uint kNormalTexels = 1u;  // three octahedral 2 x snorm16 unit vectors, one per vertex
-// Three colours, one per vertex: square roots of linear RGB, 10 bits each.
+// Three colours, one per vertex: square roots of linear RGB, 10 bits each; and three alphas of 10 bits.
 DUOLUX_CONST uint kColourTexels = 1u;
 
 #ifdef __cplusplus
@@ -104,7 +104,7 @@ static_assert(sizeof(DeviceNormals) == kNormalTexels * 16);
 
 struct DeviceColours {
     uint roots[3];
-    uint unused;
+    uint alphas;
 };
 static_assert(sizeof(DeviceColours) == kColourTexels * 16);
 #endif

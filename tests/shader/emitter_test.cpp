@@ -11,6 +11,7 @@
 #include "tests/shader/density.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/mirror_types.h"
+#include "tests/shader/no_scene.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
@@ -84,7 +85,7 @@ using Records = std::vector<shared::DeviceEmitter>;
 ShaderLibrary emitters(const Records& records) {
     ShaderLibrary library("shaders/lib/emitter.glsl");
     library.texels("fetchEmitterTexel", std::span(records));
-    library.define(kNoScene);
+    library.define(kNoScene).define(kNoVertexRecords).define(kNoEmissionTextures);
     return library;
 }
 

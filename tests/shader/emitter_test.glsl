@@ -6,6 +6,10 @@ uvec4 fetchEmitterTexel(uint index) { return emitterTexels[min(index, 17u)]; }
 uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
 uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }
+uvec4 fetchCornerTexel(uint index) { return uvec4(0u); }
+uvec4 fetchVertexTexel(uint index) { return uvec4(0u); }
+uvec4 fetchSecondUvTexel(uint index) { return uvec4(0u); }
+vec3 emissionTexel(uint triangle, vec2 barycentric) { return vec3(1.0); }
 
 // From 0.5 to 2, or of any magnitude that densities have.
 float randomDensity() { return testIndex() % 2u == 0u ? randomFloat(0.5, 2.0) : randomScale(-60.0, 60.0); }

@@ -190,7 +190,7 @@ class RayOffset : public testing::TestWithParam<Place> {
         ShaderLibrary library = traversalOf(scene.tree);
         library.define(
             "#include \"shaders/lib/surface.glsl\"\nuvec4 fetchNormalTexel(uint i) { return uvec4(0u); }");
-        library.define(kRays);
+        library.define(kNoVertexRecords).define(kRays);
         std::vector<std::uint32_t> seeds(rays / kRaysPerInvocation);
         std::iota(seeds.begin(), seeds.end(), 1u);
         return sum(library.evaluate<Leaks>(R"(

@@ -2,6 +2,9 @@
 #include "shaders/lib/light_path.glsl"
 
 uvec4 fetchNormalTexel(uint index) { return uvec4(index); }
+uvec4 fetchCornerTexel(uint index) { return uvec4(0u); }
+uvec4 fetchVertexTexel(uint index) { return uvec4(0u); }
+uvec4 fetchSecondUvTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }
 uvec4 fetchPairTexel(uint index) { return uvec4(0u); }
 

@@ -5,6 +5,7 @@
 
 #include "shaders/shared/path_tracer_layout.h"
 #include "tests/shader/inputs.h"
+#include "tests/shader/no_scene.h"
 #include "tests/shader/oracles.h"
 
 // Shading normals: the error of their 16-bit coding, interpolation in double precision, and both oracles.
@@ -15,7 +16,8 @@ namespace {
 const ShaderLibrary& normals() {
     static const ShaderLibrary library =
         ShaderLibrary("shaders/lib/normals.glsl")
-            .define("uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }");
+            .define("uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }")
+            .define(kNoVertexRecords);
     return library;
 }
 
@@ -162,6 +164,7 @@ Points pointsOfAll() {
 TEST(Normals, AreInterpolatedAndNormalised) {
     const std::vector<shared::DeviceNormals> corners = triangleNormals();
     ShaderLibrary library("shaders/lib/normals.glsl");
+    library.define(kNoVertexRecords);
     library.texels("fetchNormalTexel", std::span(corners));
     const Points points = pointsOfAll();
     const std::vector<glm::vec3> ns =
@@ -180,6 +183,7 @@ TEST(NormalsOracles, AllFunctions) {
     EXPECT_ORACLES(normals(), octahedralDecode, (Budget{0, 4e-7}), randomWords(1 << 14));
     const std::vector<shared::DeviceNormals> corners = triangleNormals();
     ShaderLibrary library("shaders/lib/normals.glsl");
+    library.define(kNoVertexRecords);
     library.texels("fetchNormalTexel", std::span(corners));
     for (const shared::DeviceNormals& n : corners)
         mirror::texels().normals.emplace_back(n.octahedral[0], n.octahedral[1], n.octahedral[2], n.unused);

@@ -8,6 +8,9 @@ uvec4 fetchNormalTexel(uint index) {
     fetchedIndex = index;
     return texel;
 }
+uvec4 fetchCornerTexel(uint index) { return uvec4(0u); }
+uvec4 fetchVertexTexel(uint index) { return uvec4(0u); }
+uvec4 fetchSecondUvTexel(uint index) { return uvec4(0u); }
 
 uint code(int x, int y) { return (uint(x) & 0xffffu) | (uint(y) << 16u); }
 

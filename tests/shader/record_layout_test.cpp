@@ -8,8 +8,10 @@
 
 #include "shaders/shared/bvh_layout.h"
 #include "shaders/shared/path_tracer_layout.h"
+#include "shaders/shared/texture_layout.h"
 #include "tests/shader/layout_words.h"
 #include "tests/shader/mirror_types.h"
+#include "tests/shader/no_scene.h"
 
 // Records in texels: the host writes a sentinel into every field, and the library's fetch functions must
 // return it in the corresponding field. There are several records to test the stride.
@@ -77,8 +79,13 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
     using mirror::single::Material;
     using mirror::single::ReflectanceMatrix;
     const auto records = sentinels<shared::DeviceMaterial>(kRecords);
-    ShaderLibrary library("shaders/lib/material.glsl");
+    ShaderLibrary library({"shaders/lib/material.glsl", "shaders/lib/material_textures.glsl"});
+    library.define(
+        "uvec4 fetchTextureTexel(uint index) { return uvec4(0u); }"
+        "uvec4 fetchAtlasTexel(uint index) { return uvec4(0u); }");
     library.texels("fetchMaterialTexel", std::span(std::as_const(records)));
+    const auto ranges = library.call<glm::uvec2>("fetchTextureRange", recordIndices());
+    const auto normalScales = library.call<float>("fetchNormalScale", recordIndices());
     const auto materials = library.call<Material>("fetchMaterial", recordIndices());
     const auto opaque = library.call<ReflectanceMatrix>("fetchOpaque", recordIndices());
     const auto transparent = library.call<ReflectanceMatrix>("fetchTransparent", recordIndices());
@@ -95,9 +102,49 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
             }
             return record.ofWords(names);
         };
+        EXPECT_EQ((std::vector<double>{static_cast<double>(ranges[i].x), static_cast<double>(ranges[i].y),
+                                       static_cast<double>(normalScales[i])}),
+                  record.ofWords({"firstTexture", "textureCount", "normalScale"}));
         EXPECT_EQ(numbers(opaque[i]), matrix("opaque"));
         EXPECT_EQ(numbers(transparent[i]), matrix("transparent"));
         record.expectAllFetched();
+    }
+}
+
+TEST(RecordLayout, TexturesAreFetchedFieldByField) {
+    const auto records = sentinels<shared::DeviceTexture>(kRecords);
+    ShaderLibrary library("shaders/lib/texture.glsl");
+    library.define("uvec4 fetchAtlasTexel(uint index) { return uvec4(0u); }");
+    library.texels("fetchTextureTexel", std::span(std::as_const(records)));
+    const auto textures = library.call<mirror::single::Texture>("fetchTexture", recordIndices());
+    for (std::size_t i = 0; i < kRecords; ++i) {
+        SentinelRecord<shared::DeviceTexture> record(i);
+        EXPECT_EQ(numbers(textures[i]), record.ofStructure("Texture"));
+        record.expectAllFetched();
+    }
+}
+
+/// Each word of a vertex by the record that the corner names.
+TEST(RecordLayout, VerticesAreFetchedCornerByCorner) {
+    const auto vertices = sentinels<shared::DeviceVertex>(3 * kRecords);
+    std::vector<shared::DeviceCorners> corners;
+    for (std::uint32_t i = 0; i < kRecords; ++i)
+        corners.push_back({{3 * i + 2, 3 * i, 3 * i + 1}, 0xdeadbeefu});
+    ShaderLibrary library("shaders/lib/vertex_records.glsl");
+    library.define("uvec4 fetchSecondUvTexel(uint index) { return uvec4(0u); }");
+    library.texels("fetchCornerTexel", std::span(std::as_const(corners)))
+        .texels("fetchVertexTexel", std::span(std::as_const(vertices)));
+    for (const auto& [field, vertex] :
+         {std::pair{"first", 2}, std::pair{"second", 0}, std::pair{"third", 1}}) {
+        const auto words = library.evaluate<glm::uvec4>(fmt::format("result = fetchVertices(x0).{};", field),
+                                                        recordIndices());
+        for (std::uint32_t i = 0; i < kRecords; ++i) {
+            for (std::size_t w = 0; w < 4; ++w) {
+                EXPECT_EQ(words[i][static_cast<int>(w)],
+                          sentinel(3 * i + static_cast<std::size_t>(vertex), w))
+                    << field << " " << i << " " << w;
+            }
+        }
     }
 }
 
@@ -110,6 +157,7 @@ TEST(RecordLayout, EmittersAreFetchedFieldByField) {
         "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }"
         "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }"
         "uvec4 fetchNormalTexel(uint index) { return uvec4(0u); }");
+    library.define(kNoVertexRecords).define(kNoEmissionTextures);
     library.texels("fetchEmitterTexel", std::span(std::as_const(records)));
     const auto emitters = library.call<Emitter>("fetchEmitter", recordIndices());
     const auto entries = library.call<AliasEntry>("fetchAliasEntry", recordIndices());
@@ -176,6 +224,7 @@ TEST(RecordLayout, NormalsAreFetchedVertexByVertex) {
         }
     }
     ShaderLibrary library("shaders/lib/normals.glsl");
+    library.define(kNoVertexRecords);
     library.texels("fetchNormalTexel", std::span(std::as_const(records)));
     const auto normals = library.call<glm::vec3>("shadingNormal", triangles, barycentrics);
     for (std::size_t i = 0; i < expected.size(); ++i)

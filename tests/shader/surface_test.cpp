@@ -7,6 +7,7 @@
 #include "shaders/shared/path_tracer_layout.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/mirror_types.h"
+#include "tests/shader/no_scene.h"
 #include "tests/shader/oracles.h"
 
 // Points on surfaces: the bound on rounding errors at every scale, frames in double precision, and both
@@ -25,7 +26,8 @@ const ShaderLibrary& surface() {
                                              .texels("fetchNormalTexel", std::span(&kCorners, 1))
                                              .define(
                                                  "uvec4 fetchPlaneTexel(uint index) { return uvec4(0u); }"
-                                                 "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }");
+                                                 "uvec4 fetchPairTexel(uint index) { return uvec4(0u); }")
+                                             .define(kNoVertexRecords);
     return library;
 }
 
@@ -166,6 +168,7 @@ TEST(Surface, WithPlanesPointsAreAsExactAsTheirOwnSize) {
     library.texels("fetchPlaneTexel", std::span(planes))
         .texels("fetchPairTexel", std::span(pairs))
         .texels("fetchNormalTexel", std::span(&kCorners, 1))
+        .define(kNoVertexRecords)
         .constant(shared::kSpecPlanes, 1);
     std::vector<glm::vec3> at;
     std::vector<SurfacePoint> points;

@@ -11,6 +11,9 @@ uvec4 pairTexel;
 uvec4 fetchPlaneTexel(uint index) { return planeTexel; }
 uvec4 fetchPairTexel(uint index) { return pairTexel; }
 
+uvec4 fetchCornerTexel(uint index) { return uvec4(0u); }
+uvec4 fetchVertexTexel(uint index) { return uvec4(0u); }
+uvec4 fetchSecondUvTexel(uint index) { return uvec4(0u); }
 uvec4 fetchNormalTexel(uint index) {
     fetchedIndex = index;
     return texel;

@@ -29,3 +29,12 @@ TEST(ColoursAreInterpolated) {
     EXPECT_NEAR(colour, vec3(1.0 - b.x - b.y, b.x, b.y), 4e-7);
     EXPECT_EQ(fetchedIndex, testIndex());
 }
+
+TEST(AlphasAreInterpolated) {
+    vec3 alphas = vec3(uvec3(randomUint(), randomUint(), randomUint()) & 1023u);
+    texel = uvec4(uvec3(0xffffffffu), 0xc0000000u | code(uint(alphas.x), uint(alphas.y), uint(alphas.z)));
+    vec2 b = randomVec2();
+    if (b.x + b.y > 1.0) b = 1.0 - b;
+    EXPECT_NEAR(vertexAlpha(testIndex(), b), dot(alphas / 1023.0, vec3(1.0 - b.x - b.y, b.x, b.y)), 4e-7);
+    EXPECT_EQ(fetchedIndex, testIndex());
+}

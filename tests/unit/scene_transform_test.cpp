@@ -35,6 +35,20 @@ glm::vec3 normalAt(const Geometry& geometry, const glm::vec3& position) {
     throw std::out_of_range("no such corner");
 }
 
+/// Tangents are directions on the surface, so that they follow its points; mirroring turns bitangents round.
+TEST(SceneTransform, TangentsFollowTheSurface) {
+    for (const double side : {1.0, -1.0}) {
+        Geometry geometry = makeTriangle();
+        geometry.uvs = {{0, 0}, {1, 1}};
+        geometry.tangents = {{std::sqrt(0.5f), std::sqrt(0.5f), 0, -1}, {0, 0, 0, 0}};
+        ASSERT_TRUE(
+            transformGeometry(geometry, rows({3 * side, 0, 0, 1, 0, 4, 0, 2, 0, 0, 5, 3, 0, 0, 0, 1})));
+        const glm::vec4 expected(0.6 * side, 0.8, 0.0, -side);
+        EXPECT_LT(glm::length(geometry.tangents[0] - expected), 1e-6f);
+        EXPECT_EQ(geometry.tangents[1], glm::vec4(0.0f));
+    }
+}
+
 TEST(SceneTransform, MovesAndScales) {
     Geometry geometry = makeTriangle();
     ASSERT_TRUE(transformGeometry(geometry, rows({2, 0, 0, 10, 0, 3, 0, 20, 0, 0, 4, 30, 0, 0, 0, 1})));

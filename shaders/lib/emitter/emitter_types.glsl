@@ -1,13 +1,16 @@
 // Emitters as records, and what every kind of emitter in this folder returns. The kernel that includes this defines
-// fetchEmitterTexel.
+// fetchEmitterTexel and emissionTexel.
 #ifndef DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 #define DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 
 #include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/lib/surface.glsl"
+#include "shaders/lib/texture_groups.glsl"
 #include "shaders/shared/emitter_layout.h"
 
 uvec4 fetchEmitterTexel(uint index);
+// What textures make of the emission at a point of a triangle in device memory, a factor.
+vec3 emissionTexel(uint triangle, vec2 barycentric);
 
 struct Emitter {
     vec3 v0;
@@ -48,6 +51,7 @@ struct EmitterPoint {
     vec3 position;
     vec3 normal;  // unit, on the front side
     float positionError;
+    vec2 barycentric;  // on a triangle
 };
 
 // The direction in which a point of the scene receives light from an emitter.
@@ -86,6 +90,13 @@ Emitter emitterOfTriangle(uint rank, uint emittingTriangles) {
 Radiance2 emissionOn(Emitter emitter, bool front) {
     bool emits = (emitter.flags & (front ? kEmitterFront : kEmitterBack)) != 0u;
     return Radiance2(emits ? emitter.emission.invisible : vec3(0.0), emits ? emitter.emission.visible : vec3(0.0));
+}
+
+// The same at a point of the emitter.
+Radiance2 emissionAt(Emitter emitter, EmitterPoint on, bool front) {
+    Radiance2 emission = emissionOn(emitter, front);
+    if (isTextured(kGroupEmission)) emission = scaled(emission, emissionTexel(emitter.triangle, on.barycentric));
+    return emission;
 }
 
 #endif

@@ -27,7 +27,9 @@ Radiance2 irradianceFromPoint(Emitter emitter, vec3 point, vec3 normal) {
     return scaled(emitter.emission, vec3(distanceSquared > 0.0 ? cosine / distanceSquared : 0.0));
 }
 
-EmitterPoint pointOnPointEmitter(Emitter emitter) { return EmitterPoint(emitter.v0, vec3(0.0, 0.0, 1.0), 0.0); }
+EmitterPoint pointOnPointEmitter(Emitter emitter) {
+    return EmitterPoint(emitter.v0, vec3(0.0, 0.0, 1.0), 0.0, vec2(0.0));
+}
 
 EmittedRay emitFromPoint(Emitter emitter, vec2 u) {
     EmittedRay ray;

@@ -1,4 +1,4 @@
-// Emitting triangles: radiance is the same at all points and in all directions of a side.
+// Emitting triangles: radiance is the same in all directions of a side and, without textures, at all points.
 #ifndef DUOLUX_LIB_EMITTER_TRIANGLE_GLSL
 #define DUOLUX_LIB_EMITTER_TRIANGLE_GLSL
 
@@ -15,6 +15,7 @@ EmitterPoint pointOnTriangleEmitter(Emitter emitter, vec2 u) {
     on.normal = normalize(cross(emitter.v1 - emitter.v0, emitter.v2 - emitter.v0));
     on.position = emitter.v0 * (1.0 - b.x - b.y) + emitter.v1 * b.x + emitter.v2 * b.y;
     on.positionError = emitter.positionError;
+    on.barycentric = b;
     if (kPlanes) {
         Plane plane = fetchPlane(emitter.triangle);
         on.position = ontoPlane(plane, on.position);
@@ -41,7 +42,7 @@ EmitterSample sampleTriangleEmitter(Emitter emitter, uint index, vec3 point, vec
     s.distance = sqrt(distanceSquared);
     s.wi = toEmitter / s.distance;
     float cosAtEmitter = dot(on.normal, s.wi);
-    s.emission = emissionOn(emitter, cosAtEmitter < 0.0);
+    s.emission = emissionAt(emitter, on, cosAtEmitter < 0.0);
     s.pdf = pdfAreaToSolidAngle(emitter.density, distanceSquared, cosAtEmitter);
     s.delta = false;
     s.emitter = index;
@@ -79,13 +80,14 @@ EmittedRay emitFromTriangle(Emitter emitter, EmitterPoint on, float side, vec2 u
     ray.point = emitterSurface(emitter, on, normal);
     ray.direction = fromFrame(normal, cosineHemisphere(u));
     ray.flux = scaled(emitter.emission, vec3(emittedFlux(emitter.density, bothSides ? 2.0 : 1.0)));
+    if (isTextured(kGroupEmission)) ray.flux = scaled(ray.flux, emissionTexel(emitter.triangle, on.barycentric));
     return ray;
 }
 
 EmitterSeen seeTriangleEmitter(Emitter emitter, EmitterPoint on, vec3 toCamera) {
     bool front = dot(on.normal, toCamera) > 0.0;
     return EmitterSeen(emitterSurface(emitter, on, front ? on.normal : -on.normal),
-                       scaled(emissionOn(emitter, front), vec3(1.0 / emitter.density)));
+                       scaled(emissionAt(emitter, on, front), vec3(1.0 / emitter.density)));
 }
 
 #endif

@@ -51,6 +51,7 @@ struct Array {
 /// fetch from them.
 struct Texels {
     std::vector<glm::uvec4> nodes, pairs, planes, normals, colours, materials, emitters, albedo;
+    std::vector<glm::uvec4> textures, atlas, corners, vertices, secondUvs;
 };
 inline Texels& texels() {
     static Texels instance;

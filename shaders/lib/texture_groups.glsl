@@ -1,0 +1,13 @@
+// The groups of material parameters (texture_layout.h) that any material of the scene has textures for, so that a scene
+// does not pay for others.
+#ifndef DUOLUX_LIB_TEXTURE_GROUPS_GLSL
+#define DUOLUX_LIB_TEXTURE_GROUPS_GLSL
+
+#include "shaders/shared/kernel_interface.h"
+#include "shaders/shared/texture_layout.h"
+
+layout(constant_id = kSpecTextureGroups) const uint kTextureGroups = 0u;
+
+bool isTextured(uint group) { return (kTextureGroups & (1u << group)) != 0u; }
+
+#endif
