@@ -84,11 +84,11 @@ struct MaterialsAndEmitters {
     }
 };
 
-/// Emitters that coincide with other surfaces, or whose emission has a texture, need to know their triangle
+/// Emitters that coincide with other surfaces, or whose emission varies, need to know their triangle
 /// in device memory; the latter have its corners in the same order.
 void noteTriangles(MaterialsAndEmitters& prepared, const Geometry& geometry, const SurfacePlanes& surfaces,
                    const SceneTrees& trees) {
-    const bool textured = prepared.transport.hasTextures(shared::kGroupEmission);
+    const bool textured = prepared.transport.emissionVaries();
     if (!surfaces.used() && !textured) return;
     const std::vector<std::uint32_t> places = deviceTriangles(trees, geometry.triangles.size());
     for (std::size_t i = 0; i < prepared.triangles.size(); ++i) {
@@ -274,8 +274,7 @@ void updateScene(DeviceScene& deviceScene, const Device& device, const Scene& sc
     const AtlasPlan plan = planAtlas(scene, deviceScene.mostAtlasTexels);
     prepared.setTextures(scene, plan);
     const bool sameTextures = plan == deviceScene.atlas && vertexNeeds(scene) == deviceScene.vertexNeeds &&
-                              !prepared.transport.hasTextures(shared::kGroupEmission) &&
-                              !deviceScene.transport.hasTextures(shared::kGroupEmission);
+                              !prepared.transport.emissionVaries() && !deviceScene.transport.emissionVaries();
     if (!sameTriangles || !sameTextures) {
         DeviceScene updated =
             assemble(device, scene, std::move(prepared), deviceScene.choice, deviceScene.tree);

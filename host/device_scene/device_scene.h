@@ -61,6 +61,8 @@ struct LightTransport {
     std::uint32_t textureGroups = 0;   ///< as TextureTable::groups
 
     bool hasTextures(std::uint32_t group) const { return (textureGroups >> group & 1u) != 0; }
+    /// Emission may differ between the points of a triangle.
+    bool emissionVaries() const { return hasTextures(shared::kGroupEmission) || traits.coverage; }
 };
 
 /// A scene in device memory.

@@ -1,6 +1,7 @@
 #include "host/device_scene/transport.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace duolux {
 
@@ -10,10 +11,7 @@ bool any(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
 
-bool hasTexture(const Material& material, MaterialInput input) {
-    return std::ranges::any_of(material.textures,
-                               [&](const MaterialTexture& entry) { return entry.input == input; });
-}
+const ReflectanceMatrix kIdentity{glm::vec3(1.0f), glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(1.0f)};
 
 /// The entries that are non-zero in any of the matrices: bit j of row i.
 struct Pattern {
@@ -31,14 +29,17 @@ struct Pattern {
 
 }  // namespace
 
+bool isPartial(const Scene& scene, const Material& material) {
+    return material.alpha.mode != AlphaMode::kOpaque &&
+           (material.alpha.value < 1.0f || hasTexture(material, MaterialInput::kAlpha) ||
+            !scene.geometry.alphas.empty());
+}
+
 std::uint32_t lobesOf(const Material& material) {
-    const auto isTextured = [&](MaterialInput input) {
-        return std::any_of(material.textures.begin(), material.textures.end(),
-                           [&](const MaterialTexture& texture) { return texture.input == input; });
-    };
     // An image can only make a number smaller.
-    const bool allMetal = material.metallic >= 1.0f && !isTextured(MaterialInput::kMetallic);
-    const bool allGlass = material.transmission >= 1.0f && !isTextured(MaterialInput::kTransmission);
+    const bool allMetal = material.metallic >= 1.0f && !hasTexture(material, MaterialInput::kMetallic);
+    const bool allGlass =
+        material.transmission >= 1.0f && !hasTexture(material, MaterialInput::kTransmission);
     std::uint32_t lobes = 0;
     if (material.metallic > 0.0f) lobes |= shared::kLobeMetal;
     if (!allMetal) {
@@ -48,6 +49,9 @@ std::uint32_t lobesOf(const Material& material) {
     }
     if (material.clearcoat > 0.0f) lobes |= shared::kLobeClearcoat;
     if (material.sheenColor != glm::vec3(0.0f)) lobes |= shared::kLobeSheen;
+    if ((lobes & shared::kLobeGlass) != 0 && !material.thin && material.attenuationColor != glm::vec3(1.0f) &&
+        std::isfinite(material.attenuationDistance))
+        lobes |= shared::kLobeAttenuation;
     if (material.anisotropy > 0.0f && (lobes & ~shared::kLobeDiffuse) != 0) lobes |= shared::kLobeAnisotropic;
     return lobes;
 }
@@ -75,6 +79,10 @@ TransportTraits analyseTransport(const Scene& scene) {
         traits.lobes |= lobesOf(scene.materials[i]);
         opaque.add(reflectance.opaque);
         transparent.add(reflectance.transparent);
+        if (isPartial(scene, scene.materials[i])) {
+            traits.coverage = true;
+            transparent.add(kIdentity);
+        }
         identity = identity && reflectance.transparent.m00 == glm::vec3(1.0f);
     }
     traits.secondColumn =

@@ -24,6 +24,7 @@ struct TransportTraits {
     bool invisibleCrosses = false;  ///< some T has an entry in row 0
     bool visibleCrosses = false;
     bool oneReflectance = true;  ///< all materials share one O and T
+    bool coverage = false;       ///< surfaces may be there only in part (isPartial)
     std::uint32_t lobes = 0;     ///< sum of shared::kLobe...: what the BSDFs consist of
     /// The largest number of scattering events after which a path can still contribute to a pixel (1 for
     /// `local` and `one-bounce`), or kUnlimited.
@@ -33,6 +34,9 @@ struct TransportTraits {
 
 /// Materials that no triangle refers to do not count.
 TransportTraits analyseTransport(const Scene& scene);
+
+/// Whether a surface of the material may be there only in part: light passes unchanged through the rest.
+bool isPartial(const Scene& scene, const Material& material);
 
 /// Sum of shared::kLobe...
 std::uint32_t lobesOf(const Material& material);

@@ -87,6 +87,7 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
             {shared::kSpecEmitterKinds, deviceScene.transport.emitterKinds},
             {shared::kSpecCamera, deviceKind(scene.camera.type)},
             {shared::kSpecSmoothNormals, deviceScene.hasSmoothNormals},
+            {shared::kSpecCoverage, deviceScene.transport.traits.coverage},
             {shared::kSpecVertexColours, deviceScene.hasVertexColours},
             {shared::kSpecTextureGroups, deviceScene.transport.textureGroups},
             {shared::kSpecVertexRecords, deviceScene.vertexNeeds.records},

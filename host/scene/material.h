@@ -119,6 +119,13 @@ struct Material {
     bool operator==(const Material&) const = default;
 };
 
+inline bool hasTexture(const Material& material, MaterialInput input) {
+    for (const MaterialTexture& texture : material.textures) {
+        if (texture.input == input) return true;
+    }
+    return false;
+}
+
 /// Calls visit(name, field) for every field of a material but its name, in the order that people read: what
 /// hashes, compares or shows materials goes by this list. A field that is missing here does not compile.
 template <typename Visit>

@@ -85,7 +85,8 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
         drawChoice(path.stream, sampleDimension(outgoing.scatterings, path.crossings, kDimensionConnection));
     // Written so that NaN is traced, and counted when it arrives.
     connection.pending = camera.visible && !(brightness <= 0.0) && !(roulette >= survival);
-    connection.segment = leaveVertex(outgoing.point, camera.direction);
+    bool through = kTransmits && dot(outgoing.point.geometricNormal, camera.direction) < 0.0;
+    connection.segment = leaveSurface(outgoing.point, camera.direction, through);
     connection.distance = camera.distance;
     connection.arriving = arriving;
     connection.roulette = roulette;
@@ -100,7 +101,8 @@ void continueConnection(inout Connection connection, inout LaneSums sums, uvec2 
                         uint material) {
     if (kCameraTransparency == kTransparencyGeneral && found) {
         float before = rowWeighted(connection.arriving);
-        Radiance2 through = matrixApply(transparentOf(material), connection.arriving);
+        Radiance2 through = matrixApply(transparentAt(material, coverageAt(ray.triangle, material, ray.barycentric)),
+                                        connection.arriving);
         // Russian roulette on the loss of displayed radiance; one random number serves the whole ray.
         connection.survival *= connectionSurvival(rowWeighted(through), before);
         connection.arriving = through;

@@ -18,7 +18,7 @@ Path cameraPath(uvec2 stream) {
     Path path;
     path.stream = stream;
     path.importance = matrixIdentity();
-    path.segment = Segment(ray.origin, ray.direction, 0.0, kNoTriangle);
+    path.segment = Segment(ray.origin, ray.direction, 0.0, kNoTriangle, vec3(0.0));
     path.bsdfPdf = 0.0;
     path.scatterings = 0u;
     path.crossings = 0u;

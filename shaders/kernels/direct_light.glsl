@@ -34,11 +34,14 @@ void collectEmission(inout SampleRadiance received, Path path, SurfaceHit hit, R
 void connectToEmitter(inout Shadow shadow, inout SampleRadiance received, SurfaceHit hit, ReflectanceMatrix importance,
                       vec3 wo, uvec2 words, uint scatterings) {
     EmitterSample sampled = sampleEmitter(params.emitterCount, hit.point.position, words);
-    BsdfFrame frame = frameOf(hit.point);
+    BsdfFrame frame = frameOf(hit.point, hit.bsdf);
     vec3 f = bsdfEvaluate(hit.bsdf, frame, wo, sampled.wi, kModeRadiance);
     // The weight of the balance heuristic, pdf / (pdf + bsdfPdf), over pdf. No other strategy finds a delta.
     float otherPdf = sampled.delta ? 0.0 : bsdfPdf(hit.bsdf, frame, wo, sampled.wi, kModeRadiance);
     float weight = 1.0 / (sampled.pdf + otherPdf);
+    if (kAttenuates && isInside(hit.bsdf, dot(frame.geometric, sampled.wi) < 0.0)) {
+        f *= exp(-hit.bsdf.attenuation * sampled.distance);
+    }
     ReflectanceMatrix reflected = scaled(importance, f * (bsdfCosine(frame, sampled.wi, kModeRadiance) * weight));
     Radiance2 contribution = matrixApply(reflected, sampled.emission);
     bool contributes = sampled.distance > 0.0 && maxComponent(contribution.invisible + contribution.visible) > 0.0;
@@ -46,7 +49,7 @@ void connectToEmitter(inout Shadow shadow, inout SampleRadiance received, Surfac
         if (contributes) addRadiance(received, contribution, scatterings);
     } else if (contributes) {
         shadow.pending = true;
-        shadow.segment = leaveVertex(hit.point, sampled.wi);
+        shadow.segment = leaveVertex(hit.point, hit.bsdf, sampled.wi);
         shadow.distance = sampled.distance;
         shadow.beforeOrder = kNoTriangle;
         if (sampled.coincident != kNoTriangle) {
@@ -74,7 +77,7 @@ void addClosedForm(inout SampleRadiance received, SurfaceHit hit, ReflectanceMat
 // The shadow ray has met a surface, or nothing more up to the emitter.
 void continueShadow(inout Shadow shadow, inout SampleRadiance received, Traversal ray, bool found, uint material) {
     if (kTransparency == kTransparencyGeneral && found) {
-        ReflectanceMatrix m = multiply(shadow.importance, transparentOf(material));
+        ReflectanceMatrix m = multiply(shadow.importance, transparentAt(material, coverageAt(ray.triangle, material, ray.barycentric)));
         shadow.importance = m;
         crossSurface(shadow.segment, ray);
         shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;

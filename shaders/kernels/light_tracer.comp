@@ -87,7 +87,7 @@ bool endSegment(inout LightPath path, inout Vertex vertex) {
 void beginSegment(inout LightPath path, Vertex vertex, vec2 u) {
     BsdfSample s = scatter(vertex, -path.segment.direction, u, path.stream, path.scatterings, kModeImportance);
     path.flux = scaled(path.scattered, s.weight);
-    path.segment = leaveVertex(vertex.point, s.wi);
+    path.segment = leaveVertex(vertex.point, vertex.bsdf, s.wi);
     path.scatterings += 1u;
     path.crossings = 0u;
     path.ended = !(s.pdf > 0.0);
@@ -100,9 +100,14 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     SurfaceHit hit = meetTriangle(path.segment, path.crossings, ray, tri, viewer);
     vec3 toEmitter = -path.segment.direction;
     float adjoint = materialScatters(hit.material, hit.front) ? shadingAdjoint(hit.point, toEmitter) : 0.0;
-    Radiance2 scattered = scaled(matrixApply(opaqueOf(hit.materialIndex), path.flux), vec3(adjoint));
-    BsdfFrame frame = frameOf(hit.point);
-    vec3 f = bsdfEvaluate(hit.bsdf, frame, toEmitter, directionToCamera(hit.point.position), kModeImportance);
+    Radiance2 scattered = scaled(matrixApply(opaqueOf(hit.materialIndex), path.flux),
+                                 hit.transmittance * (hit.coverage * adjoint));
+    BsdfFrame frame = frameOf(hit.point, hit.bsdf);
+    CameraConnection camera = connectToCamera(params.camera, hit.point.position);
+    vec3 f = bsdfEvaluate(hit.bsdf, frame, toEmitter, camera.direction, kModeImportance);
+    if (kAttenuates && isInside(hit.bsdf, dot(frame.geometric, camera.direction) < 0.0)) {
+        f *= exp(-hit.bsdf.attenuation * camera.distance);
+    }
     outgoing = Outgoing(hit.point, scaled(scattered, f), path.scatterings + 1u);
 
     float weight = carried(scaled(scattered, bsdfAlbedo(hit.bsdf, frame, toEmitter)));
@@ -112,7 +117,7 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     }
 
     if (kTransparency == kTransparencyZero) return false;
-    path.flux = matrixApply(transparentOf(hit.materialIndex), path.flux);
+    path.flux = matrixApply(transparentAt(hit.materialIndex, hit.coverage), path.flux);
     crossSurface(path.segment, ray);
     path.crossings += 1u;
     return carried(path.flux) > 0.0;

@@ -40,7 +40,7 @@ void endSegment(inout Path path, inout Vertex vertex) {
     vec2 u = drawPair(path.stream, sampleDimension(path.scatterings, 0u, kDimensionDirection));
     BsdfSample s = scatter(vertex, -path.segment.direction, u, path.stream, path.scatterings, kModeRadiance);
     path.importance = scaled(path.scattered, s.weight * (weightSum / (vertex.weight * survival)));
-    path.segment = leaveVertex(vertex.point, s.wi);
+    path.segment = leaveVertex(vertex.point, vertex.bsdf, s.wi);
     path.bsdfPdf = s.pdf;
     path.scatterings += 1u;
     path.crossings = 0u;
@@ -51,13 +51,15 @@ void endSegment(inout Path path, inout Vertex vertex) {
 void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout SampleRadiance received,
                  Traversal ray, Triangle tri) {
     SurfaceHit hit = meetTriangle(path.segment, path.crossings, ray, tri, -path.segment.direction);
-    ReflectanceMatrix w = importanceOf(path);
+    ReflectanceMatrix onSegment = importanceOf(path);
+    ReflectanceMatrix w = onSegment;
+    if (kCoverage || kAttenuates) w = scaled(w, hit.transmittance * hit.coverage);
     vec3 wo = -path.segment.direction;
     if (kLayerNormal && onCameraSegment(path)) layers.normal = hit.point.shadingNormal;
     if (kEmittingTriangles) collectEmission(received, path, hit, w, ray.t, tri.primitive);
 
     ReflectanceMatrix scattered = multiply(w, opaqueOf(hit.materialIndex));
-    vec3 albedo = bsdfAlbedo(hit.bsdf, frameOf(hit.point), wo);
+    vec3 albedo = bsdfAlbedo(hit.bsdf, frameOf(hit.point, hit.bsdf), wo);
     float weight = matrixWeight(scaled(scattered, albedo), params.rowWeight);
     if (path.scatterings < params.bounces && materialScatters(hit.material, hit.front) && weight > 0.0) {
         if (kDirectLight == kDirectLightClosedForm) addClosedForm(received, hit, scattered, path.scatterings + 1u);
@@ -71,8 +73,8 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     }
 
     bool passes = false;
-    if (kTransparency != kTransparencyZero && canCross(w)) {
-        path.importance = multiply(w, transparentOf(hit.materialIndex));
+    if (kTransparency != kTransparencyZero && canCross(onSegment)) {
+        path.importance = multiply(onSegment, transparentAt(hit.materialIndex, hit.coverage));
         ReflectanceMatrix m = path.importance;
         passes = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
         crossSurface(path.segment, ray);

@@ -59,10 +59,6 @@ TextureValues texturesAt(uint triangle, uint material, uint groups, vec2 barycen
     return values;
 }
 
-vec3 emissionTexel(uint triangle, vec2 barycentric) {
-    uint material = fetchTriangle(triangle).materialFlags & kMaterialMask;
-    return texturesAt(triangle, material, 1u << kGroupEmission, barycentric).emission.xyz;
-}
 
 ReflectanceMatrix fromDevice(DeviceReflectanceMatrix m) { return ReflectanceMatrix(m.m00, m.m01, m.m10, m.m11); }
 ReflectanceMatrix sceneOpaque() { return fromDevice(params.opaque); }
@@ -70,3 +66,28 @@ ReflectanceMatrix sceneTransparent() { return fromDevice(params.transparent); }
 
 // Whether a ray visits the surfaces along it one by one, including coincident ones.
 const bool kOrdered = kTransparency != kTransparencyZero || kPlanes;
+
+// How much of a triangle's surface is there at a point.
+float coverageAt(uint triangle, uint materialIndex, vec2 barycentric) {
+    if (!kCoverage) return 1.0;
+    Material material = fetchMaterial(materialIndex);
+    if (kVertexColours) material.alpha *= vertexAlpha(triangle, barycentric);
+    if (isTextured(kGroupBase)) {
+        material.alpha *= texturesAt(triangle, materialIndex, 1u << kGroupBase, barycentric).base.w;
+    }
+    return coverageOf(material);
+}
+
+// T where only a part of the surface is there: light passes unchanged through the rest.
+ReflectanceMatrix transparentAt(uint material, float coverage) {
+    ReflectanceMatrix m = transparentOf(material);
+    if (!kCoverage) return m;
+    vec3 rest = vec3(1.0 - coverage);
+    return ReflectanceMatrix(m.m00 * coverage + rest, m.m01 * coverage, m.m10 * coverage, m.m11 * coverage + rest);
+}
+
+vec3 emissionTexel(uint triangle, vec2 barycentric) {
+    uint material = fetchTriangle(triangle).materialFlags & kMaterialMask;
+    vec3 texel = texturesAt(triangle, material, 1u << kGroupEmission, barycentric).emission.xyz;
+    return texel * coverageAt(triangle, material, barycentric);
+}

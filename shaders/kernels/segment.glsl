@@ -12,6 +12,8 @@ struct SurfaceHit {
     bool front;          // the ray arrives at the triangle's front
     float cosine;        // between the ray and the normal of the front
     vec3 emissionTexel;  // scales what the surface emits
+    float coverage;      // how much of the surface is there
+    vec3 transmittance;  // of the segment, inside glass
 };
 
 // Scales the parameters of a material by its textures.
@@ -23,6 +25,17 @@ void applyTextures(inout Material material, TextureValues values) {
         material.transmission *= values.surface.z;
         material.clearcoat *= values.surface.w;
     }
+    if (kCoverage && isTextured(kGroupBase)) material.alpha *= values.base.w;
+    if (isTextured(kGroupSpecular)) {
+        material.specularColor *= values.specular.xyz;
+        material.specular *= values.specular.w;
+    }
+    if (isTextured(kGroupSheen)) {
+        material.sheenColor *= values.sheen.xyz;
+        material.sheenRoughness *= values.sheen.w;
+    }
+    if (isTextured(kGroupNormal)) material.clearcoatRoughness *= values.normal.w;
+    if (isTextured(kGroupAnisotropy)) material.anisotropy *= values.anisotropy.z;
 }
 
 // The frame of the tangent at a point of a triangle whose front has the unit normal `front`.
@@ -30,6 +43,24 @@ TangentFrame tangentFrameAt(Triangle tri, uint triangle, vec2 barycentric, vec3 
     VertexRecords vertices = fetchVertices(triangle);
     bool isSmooth = (tri.materialFlags & kTriangleSmooth) != 0u;
     return tangentFrame(vertices, barycentric, isSmooth ? vertexNormal(vertices, barycentric) : front);
+}
+
+// The direction along which anisotropic lobes are stretched: from the tangent, turned by the rotation and the direction
+// in the image. `front`: the unit normal of the triangle's front.
+vec3 anisotropyTangent(Triangle tri, uint triangle, vec2 barycentric, vec3 front, vec3 shadingNormal, vec2 texel,
+                       float rotation) {
+    TangentFrame frame;
+    frame.normal = front;
+    orthonormalBasis(front, frame.tangent, frame.bitangent);
+    if (kVertexRecords) frame = tangentFrameAt(tri, triangle, barycentric, front);
+    vec2 direction = texel * 2.0 - 1.0;
+    vec2 turned = vec2(direction.x * cos(rotation) - direction.y * sin(rotation),
+                       direction.x * sin(rotation) + direction.y * cos(rotation));
+    vec3 tangent = frame.tangent * turned.x + frame.bitangent * turned.y;
+    tangent -= shadingNormal * dot(shadingNormal, tangent);
+    vec3 otherwise, bitangent;
+    orthonormalBasis(shadingNormal, otherwise, bitangent);
+    return dot(tangent, tangent) > 1e-6 ? normalize(tangent) : otherwise;
 }
 
 // `crossings`: surfaces crossed on the segment before. `viewer`: unit, from the point towards who looks at it.
@@ -40,7 +71,10 @@ SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle
     hit.cosine = dot(normal, segment.direction);
     hit.front = hit.cosine < 0.0;
     hit.material = fetchMaterial(hit.materialIndex);
-    if (kVertexColours) hit.material.baseColor *= vertexColour(ray.triangle, ray.barycentric);
+    if (kVertexColours) {
+        hit.material.baseColor *= vertexColour(ray.triangle, ray.barycentric);
+        if (kCoverage) hit.material.alpha *= vertexAlpha(ray.triangle, ray.barycentric);
+    }
     TextureValues values = noTextures();
     if (kTextureGroups != 0u) {
         values = texturesAt(ray.triangle, hit.materialIndex, kTextureGroups, ray.barycentric);
@@ -48,6 +82,14 @@ SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle
     }
     hit.emissionTexel = values.emission.xyz;
     hit.bsdf = bsdfOf(hit.material, hit.front);
+    hit.coverage = kCoverage ? coverageOf(hit.material) : 1.0;
+    hit.transmittance = vec3(1.0);
+    if (kAttenuates) {
+        // Glass is known at either end of a segment, so that both integrators find the same.
+        bool fromInside = maxComponent(segment.attenuation) > 0.0;
+        vec3 attenuation = fromInside || hit.front ? segment.attenuation : hit.bsdf.attenuation;
+        hit.transmittance = exp(-attenuation * ray.t);
+    }
     bool behindOthers = kPlanes && crossings > 0u && segment.t == ray.t;
     hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
     if (isTextured(kGroupNormal) && kVertexRecords) {
@@ -59,6 +101,10 @@ SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle
             hit.point.shadingNormal = normalMapped(values.normal.xyz, fetchNormalScale(hit.materialIndex), frame,
                                                    hit.point.geometricNormal, viewer);
         }
+    }
+    if (kAnisotropic) {
+        hit.bsdf.tangent = anisotropyTangent(tri, ray.triangle, ray.barycentric, normal, hit.point.shadingNormal,
+                                             values.anisotropy.xy, hit.material.anisotropyRotation);
     }
     hit.point = placedByPlane(hit.point, segment.origin + segment.direction * ray.t, behindOthers);
     return hit;
@@ -96,18 +142,21 @@ bool survives(uvec2 stream, uint scatterings, uint crossings, float weight, out 
 }
 
 // Without smooth normals a vertex need not keep both normals.
-BsdfFrame frameOf(SurfacePoint point) {
+BsdfFrame frameOf(SurfacePoint point, Bsdf bsdf) {
     bool bent = kSmoothNormals || isTextured(kGroupNormal);
-    return BsdfFrame(bent ? point.shadingNormal : point.geometricNormal, point.geometricNormal, vec3(0.0));
+    return BsdfFrame(bent ? point.shadingNormal : point.geometricNormal, point.geometricNormal, bsdf.tangent);
 }
 
 // A ray that leaves a point at which the BSDF scatters.
-Segment leaveVertex(SurfacePoint point, vec3 direction) {
-    return leaveSurface(point, direction, kTransmits && dot(point.geometricNormal, direction) < 0.0);
+Segment leaveVertex(SurfacePoint point, Bsdf bsdf, vec3 direction) {
+    bool through = kTransmits && dot(point.geometricNormal, direction) < 0.0;
+    Segment segment = leaveSurface(point, direction, through);
+    if (kAttenuates && isInside(bsdf, through)) segment.attenuation = bsdf.attenuation;
+    return segment;
 }
 
 // A direction in which a path leaves a vertex.
 BsdfSample scatter(Vertex vertex, vec3 wo, vec2 u, uvec2 stream, uint scatterings, uint mode) {
     float lobe = kOnlyDiffuse ? 0.0 : drawChoice(stream, sampleDimension(scatterings, 0u, kDimensionLobe));
-    return bsdfSample(vertex.bsdf, frameOf(vertex.point), wo, lobe, u, mode);
+    return bsdfSample(vertex.bsdf, frameOf(vertex.point, vertex.bsdf), wo, lobe, u, mode);
 }

@@ -6,6 +6,8 @@
 #include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/shared/material_layout.h"
 
+layout(constant_id = kSpecCoverage) const bool kCoverage = false;
+
 uvec4 fetchMaterialTexel(uint index);
 
 // Field by field as in DeviceMaterial.
@@ -68,6 +70,8 @@ Bsdf bsdfOf(Material material, bool front) {
     bsdf.sheenRoughness = material.sheenRoughness;
     // KHR_materials_anisotropy.
     bsdf.alpha = vec2(kAnisotropic ? mix(alpha, 1.0, material.anisotropy * material.anisotropy) : alpha, alpha);
+    bsdf.tangent = vec3(0.0);
+    bsdf.attenuation = thin || material.transmission <= 0.0 ? vec3(0.0) : material.attenuation;
     return bsdf;
 }
 
@@ -81,6 +85,12 @@ ReflectanceMatrix fetchMatrix(uint texel) {
 ReflectanceMatrix fetchOpaque(uint index) { return fetchMatrix(index * kMaterialTexels + kMaterialOpaqueTexel); }
 ReflectanceMatrix fetchTransparent(uint index) {
     return fetchMatrix(index * kMaterialTexels + kMaterialTransparentTexel);
+}
+
+// How much of the surface is there.
+float coverageOf(Material material) {
+    if ((material.flags & kMaterialAlphaMask) != 0u) return material.alpha >= material.alphaCutoff ? 1.0 : 0.0;
+    return (material.flags & kMaterialAlphaBlend) != 0u ? clamp(material.alpha, 0.0, 1.0) : 1.0;
 }
 
 bool materialScatters(Material material, bool front) { return front || (material.flags & kMaterialTwoSided) != 0u; }

@@ -55,13 +55,14 @@ struct Segment {
     vec3 direction;
     float t;
     uint order;
+    vec3 attenuation;  // per scene unit, of glass inside which it starts
 };
 
 // A ray that leaves a surface on the side of the point's normals or, `through` the surface, on the other side.
 // Coincident surfaces that lie on its side are still to be crossed.
 Segment leaveSurface(SurfacePoint point, vec3 direction, bool through) {
     vec3 origin = through ? point.position - 2.0 * point.offset * point.geometricNormal : point.position;
-    Segment segment = Segment(origin, direction, 0.0, kNoTriangle);
+    Segment segment = Segment(origin, direction, 0.0, kNoTriangle, vec3(0.0));
     if (kPlanes && (through || point.behindOthers != 0u)) {
         Plane plane = fetchPlane(point.triangle);
         segment.origin = point.position;

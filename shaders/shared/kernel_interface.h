@@ -27,7 +27,7 @@ DUOLUX_CONST uint kBindingAtlas = 16u;     // texels: the pixels of all images
 DUOLUX_CONST uint kBindingCorners = 17u;   // texels: DeviceCorners, kSpecVertexRecords only
 DUOLUX_CONST uint kBindingVertices = 18u;  // texels: DeviceVertex, kSpecVertexRecords only
 DUOLUX_CONST uint kBindingSecondUvs = 19u;  // texels: two vertices each, kSpecSecondUvs only
-DUOLUX_CONST uint kBindingAlbedo = 20u;    // texels: the tables of albedo_layout.h
+DUOLUX_CONST uint kBindingAlbedo = 20u;     // texels: the tables of albedo_layout.h
 
 // Specialisation constants.
 DUOLUX_CONST uint kSpecWorkgroupSize = 0u;
@@ -49,20 +49,21 @@ DUOLUX_CONST uint kSpecInvisibleCrosses = 13u;   // some T has m00 or m01
 DUOLUX_CONST uint kSpecVisibleCrosses = 14u;     // some T has m10 or m11
 DUOLUX_CONST uint kSpecOneReflectance = 15u;     // all materials share PathParams.opaque and .transparent
 DUOLUX_CONST uint kSpecLobes = 16u;              // sum of the kLobe... that the scene's materials have
-DUOLUX_CONST uint kSpecEmitterKinds = 17u;       // sum of the kEmitterKind... in the scene
-DUOLUX_CONST uint kSpecEmittingTriangles = 18u;  // some triangle emits
-DUOLUX_CONST uint kSpecDirectLight = 19u;        // one of kDirectLight...
-DUOLUX_CONST uint kSpecCamera = 20u;             // one of kCamera...
-DUOLUX_CONST uint kSpecSampler = 21u;            // one of kSampler...
-DUOLUX_CONST uint kSpecFilmLayers = 22u;     // the optional layers: bit i stands for the layer with index i
-DUOLUX_CONST uint kSpecFilmBands = 23u;      // buffers of the light tracer's film
-DUOLUX_CONST uint kSpecBandPixels = 24u;     // pixels of each of them but the last
-DUOLUX_CONST uint kSpecTraceMode = 25u;      // one of kTrace...
-DUOLUX_CONST uint kSpecCount = 26u;          // count visits and tests, which makes the traversal slower
-DUOLUX_CONST uint kSpecTextureGroups = 27u;  // bits of the kGroup... that any material has textures for
+DUOLUX_CONST uint kSpecCoverage = 17u;           // some surfaces are there only in part
+DUOLUX_CONST uint kSpecEmitterKinds = 18u;       // sum of the kEmitterKind... in the scene
+DUOLUX_CONST uint kSpecEmittingTriangles = 19u;  // some triangle emits
+DUOLUX_CONST uint kSpecDirectLight = 20u;        // one of kDirectLight...
+DUOLUX_CONST uint kSpecCamera = 21u;             // one of kCamera...
+DUOLUX_CONST uint kSpecSampler = 22u;            // one of kSampler...
+DUOLUX_CONST uint kSpecFilmLayers = 23u;     // the optional layers: bit i stands for the layer with index i
+DUOLUX_CONST uint kSpecFilmBands = 24u;      // buffers of the light tracer's film
+DUOLUX_CONST uint kSpecBandPixels = 25u;     // pixels of each of them but the last
+DUOLUX_CONST uint kSpecTraceMode = 26u;      // one of kTrace...
+DUOLUX_CONST uint kSpecCount = 27u;          // count visits and tests, which makes the traversal slower
+DUOLUX_CONST uint kSpecTextureGroups = 28u;  // bits of the kGroup... that any material has textures for
 // Normals and texture coordinates are those of vertices (DeviceVertex).
-DUOLUX_CONST uint kSpecVertexRecords = 28u;
-DUOLUX_CONST uint kSpecSecondUvs = 29u;  // some texture has the second set of texture coordinates
+DUOLUX_CONST uint kSpecVertexRecords = 29u;
+DUOLUX_CONST uint kSpecSecondUvs = 30u;  // some texture has the second set of texture coordinates
 
 DUOLUX_END
 #endif

@@ -31,8 +31,9 @@ DUOLUX_CONST uint kLobeDielectric = 4u;  // reflection on a diffuse surface
 DUOLUX_CONST uint kLobeGlass = 8u;
 DUOLUX_CONST uint kLobeClearcoat = 16u;
 DUOLUX_CONST uint kLobeSheen = 32u;
-DUOLUX_CONST uint kLobeAnisotropic = 64u;  // metal, dielectric or glass are stretched along the tangent
-DUOLUX_CONST uint kAllLobes = 127u;
+DUOLUX_CONST uint kLobeAnisotropic = 64u;   // metal, dielectric or glass are stretched along the tangent
+DUOLUX_CONST uint kLobeAttenuation = 128u;  // glass absorbs light inside
+DUOLUX_CONST uint kAllLobes = 255u;
 DUOLUX_CONST uint kLobesThatTransmit = kLobeGlass;  // scatter to the other side of the surface, too
 
 // Microfacets whose GGX alpha (the square of the roughness) is below this are smooth.

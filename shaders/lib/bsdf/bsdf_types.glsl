@@ -28,6 +28,8 @@ struct Bsdf {
     vec3 sheenColor;
     float sheenRoughness;
     vec2 alpha;           // of GGX, along and across the tangent
+    vec3 tangent;         // unit, in the plane of the shading normal; of anisotropic lobes
+    vec3 attenuation;     // inside glass, per scene unit
 };
 
 const uint kBsdfThin = 1u;     // glass is a wall without thickness
@@ -88,6 +90,11 @@ bool reflects(BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
 bool transmits(BsdfFrame frame, vec3 wo, vec3 wi) {
     return dot(frame.geometric, wi) < 0.0 && dot(frame.shading, wi) < 0.0 && dot(frame.shading, wo) > 0.0;
 }
+
+const bool kAttenuates = (kLobes & kLobeAttenuation) != 0u;
+
+// Whether light that leaves to a side is inside the object, whose front is outside. `through`: not the side of wo.
+bool isInside(Bsdf bsdf, bool through) { return isOutside(bsdf) == through; }
 
 // Whether the main microfacets reflect (and refract) without spreading light.
 bool isSmooth(Bsdf bsdf) { return bsdf.alpha.x * bsdf.alpha.y < kSmoothAlpha * kSmoothAlpha; }

@@ -3,14 +3,18 @@
 #ifndef DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 #define DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 
+#include "shaders/lib/material.glsl"
 #include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/texture_groups.glsl"
 #include "shaders/shared/emitter_layout.h"
 
 uvec4 fetchEmitterTexel(uint index);
-// What textures make of the emission at a point of a triangle in device memory, a factor.
+// What textures and coverage make of the emission at a point of a triangle in device memory, a factor.
 vec3 emissionTexel(uint triangle, vec2 barycentric);
+
+// Whether emission differs between the points of a triangle.
+bool emissionVaries() { return isTextured(kGroupEmission) || kCoverage; }
 
 struct Emitter {
     vec3 v0;
@@ -95,7 +99,7 @@ Radiance2 emissionOn(Emitter emitter, bool front) {
 // The same at a point of the emitter.
 Radiance2 emissionAt(Emitter emitter, EmitterPoint on, bool front) {
     Radiance2 emission = emissionOn(emitter, front);
-    if (isTextured(kGroupEmission)) emission = scaled(emission, emissionTexel(emitter.triangle, on.barycentric));
+    if (emissionVaries()) emission = scaled(emission, emissionTexel(emitter.triangle, on.barycentric));
     return emission;
 }
 

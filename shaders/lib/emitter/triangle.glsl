@@ -80,7 +80,7 @@ EmittedRay emitFromTriangle(Emitter emitter, EmitterPoint on, float side, vec2 u
     ray.point = emitterSurface(emitter, on, normal);
     ray.direction = fromFrame(normal, cosineHemisphere(u));
     ray.flux = scaled(emitter.emission, vec3(emittedFlux(emitter.density, bothSides ? 2.0 : 1.0)));
-    if (isTextured(kGroupEmission)) ray.flux = scaled(ray.flux, emissionTexel(emitter.triangle, on.barycentric));
+    if (emissionVaries()) ray.flux = scaled(ray.flux, emissionTexel(emitter.triangle, on.barycentric));
     return ray;
 }
 
