@@ -27,6 +27,8 @@ TEST(FlatTexelsChangeNothing) {
     EXPECT_NEAR(normalMapped(vec3(0.5, 0.5, 1.0), 1.0, frame, frame.normal, view), frame.normal, 4e-7);
     // The back of the surface.
     EXPECT_NEAR(normalMapped(vec3(0.5, 0.5, 1.0), 1.0, frame, -frame.normal, -view), -frame.normal, 4e-7);
+    // A viewer behind it.
+    EXPECT_NEAR(normalMapped(vec3(0.5, 0.5, 1.0), 1.0, frame, -frame.normal, view), -frame.normal, 4e-7);
 }
 
 TEST(TexelsAreInTheFrame) {
@@ -36,6 +38,8 @@ TEST(TexelsAreInTheFrame) {
     // Twice the slope.
     vec3 steeper = normalize(vec3(1.2, 0.0, 0.8));
     EXPECT_NEAR(mappedNormal(vec3(0.8, 0.5, 0.9), 2.0, frame), frame.tangent * steeper.x + frame.normal * steeper.z,
+                8e-7);
+    EXPECT_NEAR(mappedNormal(vec3(0.5, 0.8, 0.9), 2.0, frame), frame.bitangent * steeper.x + frame.normal * steeper.z,
                 8e-7);
     EXPECT_EQ(mappedNormal(vec3(0.5), 1.0, frame), frame.normal);
 }
