@@ -126,6 +126,10 @@ inline bool hasTexture(const Material& material, MaterialInput input) {
     return false;
 }
 
+/// Whether the whole surface has the base colour and reflects it diffusely, without images. All fields by
+/// name: a further one does not compile until it is handled here.
+bool isPlainDiffuse(const Material& material);
+
 /// Calls visit(name, field) for every field of a material but its name, in the order that people read: what
 /// hashes, compares or shows materials goes by this list. A field that is missing here does not compile.
 template <typename Visit>

@@ -1,6 +1,7 @@
 #include "host/scene/scene.h"
 
 #include <cassert>
+#include <tuple>
 
 #include "host/scene/fields.h"
 
@@ -112,6 +113,20 @@ const char* nameOf(Integrator integrator) {
             return "light";
     }
     return "";
+}
+
+bool isPlainDiffuse(const Material& material) {
+    const auto& [name, baseColor, metallic, roughness, ior, specular, specularColor, transmission, thin,
+                 attenuationColor, attenuationDistance, clearcoat, clearcoatRoughness, sheenColor,
+                 sheenRoughness, anisotropy, anisotropyRotation, alpha, normalScale, sides, emission,
+                 reflectance, textures] = material;
+    static_cast<void>(std::tie(name, baseColor, sides, emission, reflectance));
+    // Properties of lobes that are absent, and of images.
+    static_cast<void>(std::tie(roughness, ior, specularColor, thin, attenuationColor, attenuationDistance,
+                               clearcoatRoughness, sheenRoughness, anisotropy, anisotropyRotation,
+                               normalScale));
+    return metallic == 0.0f && specular == 0.0f && transmission == 0.0f && clearcoat == 0.0f &&
+           sheenColor == glm::vec3(0.0f) && alpha.mode == AlphaMode::kOpaque && textures.empty();
 }
 
 std::vector<bool> usedMaterials(const Geometry& geometry, std::size_t count) {

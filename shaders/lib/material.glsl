@@ -4,9 +4,8 @@
 
 #include "shaders/lib/bsdf/bsdf_types.glsl"
 #include "shaders/lib/reflectance_matrix.glsl"
+#include "shaders/lib/texture_groups.glsl"
 #include "shaders/shared/material_layout.h"
-
-layout(constant_id = kSpecCoverage) const bool kCoverage = false;
 
 uvec4 fetchMaterialTexel(uint index);
 

@@ -1,5 +1,5 @@
-// The groups of material parameters (texture_layout.h) that any material of the scene has textures for, so that a scene
-// does not pay for others.
+// The groups of material parameters (texture_layout.h) that any material of the scene has textures for, and whether any
+// surface is there only in part (coverageOf), so that a scene does not pay for others.
 #ifndef DUOLUX_LIB_TEXTURE_GROUPS_GLSL
 #define DUOLUX_LIB_TEXTURE_GROUPS_GLSL
 
@@ -7,6 +7,7 @@
 #include "shaders/shared/texture_layout.h"
 
 layout(constant_id = kSpecTextureGroups) const uint kTextureGroups = 0u;
+layout(constant_id = kSpecCoverage) const bool kCoverage = false;
 
 bool isTextured(uint group) { return (kTextureGroups & (1u << group)) != 0u; }
 

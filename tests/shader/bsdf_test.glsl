@@ -32,7 +32,7 @@ vec3 above(vec3 normal) {
 vec3 onEitherSide() { return randomDirection(); }
 
 Bsdf diffuseBsdf(vec3 albedo) {
-    return Bsdf(albedo, 0.0, 0.5, vec3(0.0), 0.0, 0.0, 1.5, kBsdfOutside, 0.0, 0.0, vec3(0.0), 0.0, vec2(0.25));
+    return Bsdf(albedo, 0.0, 0.5, vec3(0.0), 0.0, 0.0, 1.5, kBsdfOutside, 0.0, 0.0, vec3(0.0), 0.0, vec2(0.25), vec3(0.0), vec3(0.0));
 }
 
 // Any mixture of base lobes, without layers on it.
@@ -46,7 +46,7 @@ Bsdf randomBase() {
     float specular = testIndex() % 4u == 0u ? 0.0 : randomFloat(0.0, 1.0);
     vec2 alpha = vec2(randomFloat(roughness * roughness, 1.0), roughness * roughness);
     return Bsdf(randomVec3(0.0, 1.0), metallic, roughness, randomVec3(0.0, 0.3) * specular, specular, transmission, eta,
-                flags, 0.0, 0.0, vec3(0.0), 0.0, alpha);
+                flags, 0.0, 0.0, vec3(0.0), 0.0, alpha, vec3(0.0), vec3(0.0));
 }
 Bsdf randomBsdf() {
     Bsdf bsdf = randomBase();

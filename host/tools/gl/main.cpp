@@ -41,9 +41,12 @@ struct Arguments {
 /// Throws InputError if the scene has something that is not drawn. All fields by name: a further one does not
 /// compile until it is handled here.
 void requireDrawable(const std::string& file, const Scene& scene) {
-    const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, origin, content] =
-        scene;
-    const auto& [positions, triangles, materialIndices, normals, normalIndices, colours] = geometry;
+    const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, images, origin,
+                 content] = scene;
+    const auto& [positions, triangles, materialIndices, normals, normalIndices, colours, alphas, uvs,
+                 secondUvs, tangents, uvIndices] = geometry;
+    static_cast<void>(
+        std::tie(alphas, uvs, secondUvs, tangents, uvIndices, images));  // of images and coverage
     static_cast<void>(std::tie(source, camera, origin, content, positions, triangles, materialIndices,
                                normals, normalIndices));
     static_cast<void>(reflectance);  // `local` is drawn in its place
@@ -59,11 +62,8 @@ void requireDrawable(const std::string& file, const Scene& scene) {
                          "expected emitting surfaces, which duolux-gl replaces with OpenGL lights");
     }
     for (const Material& material : materials) {
-        const auto& [name, baseColor, metallic, roughness, sides, emission, ownReflectance] = material;
-        static_cast<void>(std::tie(baseColor, sides, emission));
-        static_cast<void>(std::tie(roughness, ownReflectance));  // of metals; `local` is drawn
-        if (metallic > 0.0f)
-            throw InputError(file, fmt::format("material {}", name), "is a metal",
+        if (!isPlainDiffuse(material))
+            throw InputError(file, fmt::format("material {}", material.name), "is not diffuse, or has images",
                              "duolux-gl draws only diffuse materials");
     }
 }

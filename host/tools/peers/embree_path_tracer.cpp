@@ -146,17 +146,17 @@ class PathTracer {
 /// Whether the path tracer leaves out nothing of the scene. All fields by name: a further one does not
 /// compile until it is handled here.
 bool isSupported(const Scene& scene) {
-    const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, origin, content] =
-        scene;
-    const auto& [positions, triangles, materialIndices, normals, normalIndices, colours] = geometry;
+    const auto& [source, camera, display, reflectance, materials, geometry, pointEmitters, images, origin,
+                 content] = scene;
+    const auto& [positions, triangles, materialIndices, normals, normalIndices, colours, alphas, uvs,
+                 secondUvs, tangents, uvIndices] = geometry;
+    static_cast<void>(
+        std::tie(alphas, uvs, secondUvs, tangents, uvIndices, images));  // of images and coverage
     static_cast<void>(std::tie(source, camera, origin, content, positions, triangles, materialIndices));
     static_cast<void>(display);        // the picture is the visible component
     static_cast<void>(normalIndices);  // there are none without normals
     const auto isPlain = [](const Material& material) {
-        const auto& [name, baseColor, metallic, roughness, sides, emission, ownReflectance] = material;
-        static_cast<void>(std::tie(name, baseColor, sides, emission));
-        static_cast<void>(roughness);  // of metals
-        return metallic == 0.0f && !ownReflectance;
+        return isPlainDiffuse(material) && !material.reflectance;
     };
     return reflectance == *presetReflectance("global") && normals.empty() && colours.empty() &&
            pointEmitters.empty() && std::ranges::all_of(materials, isPlain);

@@ -3,7 +3,6 @@
 #ifndef DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 #define DUOLUX_LIB_EMITTER_EMITTER_TYPES_GLSL
 
-#include "shaders/lib/material.glsl"
 #include "shaders/lib/reflectance_matrix.glsl"
 #include "shaders/lib/surface.glsl"
 #include "shaders/lib/texture_groups.glsl"

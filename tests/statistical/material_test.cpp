@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/render/render.h"
+#include "tests/statistical/renders.h"
+#include "tests/support/closed_form.h"
+#include "tests/support/device.h"
+#include "tests/support/exact_case.h"
+#include "tests/support/scene_builder.h"
+
+// Materials beyond diffuse ones: what absorbs nothing is invisible in uniform light, and both integrators
+// agree on all.
+
+namespace duolux::test {
+
+namespace {
+
+struct MaterialCase {
+    std::string name;
+    Material material;
+};
+
+/// For messages of the test framework.
+void PrintTo(const MaterialCase& c, std::ostream* out) {
+    *out << c.name;
+}
+
+Material white() {
+    Material material;
+    material.name = "object";
+    material.baseColor = glm::vec3(1.0f);
+    return material;
+}
+
+template <typename Change>
+MaterialCase caseOf(std::string name, const Change& change) {
+    Material material = white();
+    change(material);
+    return {std::move(name), material};
+}
+
+/// Materials that absorb nothing.
+std::vector<MaterialCase> whiteCases() {
+    return {caseOf("Dielectric",
+                   [](Material& m) {
+                       m.specular = 1.0f;
+                       m.roughness = 0.3f;
+                   }),
+            caseOf("Glass",
+                   [](Material& m) {
+                       m.specular = m.transmission = 1.0f;
+                       m.roughness = 0.0f;
+                   }),
+            caseOf("RoughGlass",
+                   [](Material& m) {
+                       m.specular = m.transmission = 1.0f;
+                       m.roughness = 0.5f;
+                   }),
+            caseOf("ThinGlass",
+                   [](Material& m) {
+                       m.specular = m.transmission = 1.0f;
+                       m.roughness = 0.4f;
+                       m.thin = true;
+                   }),
+            caseOf("Clearcoat",
+                   [](Material& m) {
+                       m.metallic = 1.0f;
+                       m.roughness = 0.6f;
+                       m.clearcoat = 1.0f;
+                   }),
+            caseOf("Sheen",
+                   [](Material& m) {
+                       m.sheenColor = glm::vec3(1.0f);
+                       m.sheenRoughness = 0.4f;
+                   }),
+            caseOf("Blend", [](Material& m) {
+                m.specular = 1.0f;
+                m.roughness = 0.4f;
+                m.alpha = {AlphaMode::kBlend, 0.4f, 0.5f};
+            })};
+}
+
+class WhiteFurnace : public testing::TestWithParam<MaterialCase> {};
+
+/// Radiance 1 everywhere, in front of and behind an object of any shape.
+TEST_P(WhiteFurnace, HidesWhatAbsorbsNothing) {
+    SceneBuilder builder;
+    Material wall;
+    wall.name = "wall";
+    wall.baseColor = glm::vec3(0.0f);
+    wall.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
+    builder.box({-4, -4, -4}, {4, 4, 4}, Facing::kInward, builder.add(wall));
+    const std::uint32_t object = builder.add(GetParam().material);
+    builder.sphere({0, 0, 0}, 1.0f, 2, Facing::kOutward, object);
+    LoadedScene& scene = builder.scene;
+    scene.reflectance = preset("global");
+    scene.camera = {{0.3f, 0.4f, 3.0f}, {0, 0, 0}, {0, 1, 0}, 40.0f};
+    scene.settings.width = scene.settings.height = 16;
+    scene.settings.bounces = 64;
+    const ChannelLight one = {{{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}};
+    LoadedScene gathered = scene;
+    gathered.settings.spp = 2048;
+    const RadianceImage image = render(device(), gathered).film.resolve();
+    double sum = 0.0;
+    for (const glm::vec3& v : image.visible)
+        sum += static_cast<double>(v.x + v.y + v.z) / 3.0;
+    EXPECT_NEAR(sum / static_cast<double>(image.visible.size()), 1.0, 0.005);
+    expectAgreement("WhiteFurnace" + GetParam().name, renderSeeds(scene, 64, 16), uniformImage(16, 16, one),
+                    {.relative = 0.01});
+}
+
+INSTANTIATE_TEST_SUITE_P(Often, WhiteFurnace, testing::ValuesIn(whiteCases()),
+                         [](const auto& test) { return test.param.name; });
+
+/// As whiteCases(), but without smooth surfaces, which light paths do not show, and with colours.
+std::vector<MaterialCase> rougherCases() {
+    std::vector<MaterialCase> cases = whiteCases();
+    std::erase_if(cases, [](const MaterialCase& c) { return c.name == "Glass"; });
+    for (MaterialCase& c : cases) {
+        c.material.baseColor = {0.9f, 0.6f, 0.3f};
+        c.material.clearcoatRoughness = 0.4f;
+    }
+    cases.push_back(caseOf("Anisotropic", [](Material& m) {
+        m.metallic = 1.0f;
+        m.roughness = 0.5f;
+        m.anisotropy = 0.7f;
+        m.anisotropyRotation = 30.0f;
+    }));
+    cases.push_back(caseOf("TintedGlass", [](Material& m) {
+        m.specular = m.transmission = 1.0f;
+        m.roughness = 0.4f;
+        m.attenuationColor = {0.9f, 0.5f, 0.2f};
+        m.attenuationDistance = 0.5f;
+    }));
+    cases.push_back(caseOf("Everything", [](Material& m) {
+        m.baseColor = {0.9f, 0.6f, 0.3f};
+        m.specular = 0.8f;
+        m.metallic = 0.2f;
+        m.transmission = 0.4f;
+        m.roughness = 0.4f;
+        m.clearcoat = 0.5f;
+        m.clearcoatRoughness = 0.3f;
+        m.sheenColor = {0.2f, 0.3f, 0.4f};
+        m.sheenRoughness = 0.5f;
+        m.alpha = {AlphaMode::kBlend, 0.7f, 0.5f};
+    }));
+    return cases;
+}
+
+class MaterialPair : public testing::TestWithParam<MaterialCase> {};
+
+/// A sphere with smooth normals on a floor, lit by a lamp.
+LoadedScene sphereOnFloor(const Material& material, const Reflectance& reflectance) {
+    SceneBuilder builder;
+    builder.sphere({0, 1, 0}, 1.0f, 2, Facing::kOutward, builder.add(material));
+    Geometry& geometry = builder.scene.geometry;
+    geometry.normalIndices = geometry.triangles;
+    for (const glm::vec3& p : geometry.positions)
+        geometry.normals.push_back(glm::normalize(p - glm::vec3(0, 1, 0)));
+    Material floor;
+    floor.name = "floor";
+    floor.baseColor = {0.3f, 0.6f, 0.8f};
+    builder.quad({-3, -0.2f, -3}, {-3, -0.2f, 3}, {3, -0.2f, 3}, {3, -0.2f, -3}, builder.add(floor));
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.baseColor = glm::vec3(0.0f);
+    lamp.emission = {{20, 15, 10}, {5, 10, 15}, Sides::kFront};
+    builder.quad({-1.5f, 4, 0}, {-1.5f, 3, 1}, {-2.5f, 2, 0}, {-2.5f, 3, -1}, builder.add(lamp));
+    geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
+    LoadedScene& scene = builder.scene;
+    scene.reflectance = reflectance;
+    scene.camera = {{0.5f, 2.5f, 5}, {0, 0.7f, 0}, {0, 1, 0}, 40.0f};
+    scene.settings.width = scene.settings.height = 24;
+    scene.settings.bounces = 4;
+    return scene;
+}
+
+TEST_P(MaterialPair, GatheringAndShootingAgree) {
+    for (const auto& [name, reflectance] :
+         {std::pair("Global", preset("global")), std::pair("Blend", blendReflectance(0.6f, 0.4f))}) {
+        const LoadedScene scene = sphereOnFloor(GetParam().material, reflectance);
+        expectAgreement(GetParam().name + name + "Light", renderByLight(scene, 128, 16),
+                        estimatesOf(renderSeeds(scene, 64, 16, 1000)), {.lightPaths = true});
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Often, MaterialPair, testing::ValuesIn(rougherCases()),
+                         [](const auto& test) { return test.param.name; });
+
+/// A parallel plate of smooth glass without absorption in uniform light behind it: all inner reflections
+/// together transmit (1 - R) / (1 + R) at normal incidence, where R = ((n - 1) / (n + 1))^2 is that of one
+/// interface.
+TEST(Glass, PlateTransmitsTheSeriesOfInnerReflections) {
+    SceneBuilder builder;
+    Material glass = white();
+    glass.specular = glass.transmission = 1.0f;
+    glass.roughness = 0.0f;
+    glass.ior = 2.0f;
+    builder.box({-50, -50, -0.5f}, {50, 50, 0.5f}, Facing::kOutward, builder.add(glass));
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.baseColor = glm::vec3(0.0f);
+    lamp.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
+    builder.quad({-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2}, builder.add(lamp));
+    LoadedScene& scene = builder.scene;
+    scene.reflectance = preset("global");
+    scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.2f};
+    scene.settings.width = scene.settings.height = 8;
+    scene.settings.bounces = 64;
+    const double r = 1.0 / 9.0, expected = (1.0 - r) / (1.0 + r);
+    expectAgreement("GlassPlate", renderSeeds(scene, 64, 16),
+                    uniformImage(8, 8, {{{expected, expected}, {expected, expected}, {expected, expected}}}),
+                    {.relative = 1e-3});
+}
+
+}  // namespace
+
+}  // namespace duolux::test
