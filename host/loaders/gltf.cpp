@@ -80,7 +80,7 @@ class GltfLoader {
         GltfPlacement placement{node, world, {}, weights};
         if (const auto skin = node.find("skin")) placement.joints = jointsOf(document_.index(*skin, "skins"));
         for (const GltfPrimitive& primitive : entry->second) {
-            const std::uint32_t material = materialOf(primitive.material);
+            const std::uint32_t material = materialOf(primitive);
             for (const glm::dmat4& instance : instancesOf(node)) {
                 placement.world = world * instance;
                 geometry_.add(primitive, material, placement);
@@ -152,14 +152,18 @@ class GltfLoader {
         return entry->second;
     }
 
-    std::uint32_t materialOf(const std::optional<std::uint32_t>& index) {
+    std::uint32_t materialOf(const GltfPrimitive& primitive) {
+        const std::optional<std::uint32_t> index = primitive.material;
         const auto next = static_cast<std::uint32_t>(mesh_.materials.size());
         const auto [entry, isNew] = materials_.try_emplace(index, next);
-        if (isNew) {
-            mesh_.materials.push_back(
-                index ? readGltfMaterial(document_.list("materials")[*index], *index, textures_, notes_)
-                      : defaultGltfMaterial());
+        if (!index) {
+            if (isNew) mesh_.materials.push_back(defaultGltfMaterial());
+            return entry->second;
         }
+        const JsonNode& node = document_.list("materials")[*index];
+        if (isNew) mesh_.materials.push_back(readGltfMaterial(node, *index, textures_, notes_));
+        if (!primitive.colours.empty() && extensionOf(node, "KHR_materials_unlit"))
+            notes_.ignore(node, "colours of vertices of an unlit surface are not supported", "ignored");
         return entry->second;
     }
 

@@ -227,6 +227,13 @@ TEST_F(GltfTest, HarmlessErrorsOfMeshesAreWarnings) {
     primitive["attributes"]["NORMAL"] = file.vec3({0, 0, 1, 0, 0, 0, NAN, 0, 1});
     primitive["attributes"]["TEXCOORD_0"] = file.vec2({0, INFINITY, 1, 0, 0, 1});
     file.primitive(json::object());
+    for (const std::vector<float>& normals : {std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 1},
+                                              {0, 0, 1, 0, 0, 0, 0, 0, 1},
+                                              {0, 0, 1, 0, 0, 1, 0, 0, 0}}) {
+        GltfFile flat;
+        flat.primitive({{"POSITION", flat.vec3(kCorners)}, {"NORMAL", flat.vec3(normals)}});
+        EXPECT_EQ(mesh(flat).geometry.normalIndices[0].x, Geometry::kNoNormal);
+    }
     const Mesh read = mesh(file);
     EXPECT_EQ(read.geometry.triangles.size(), 1u);
     EXPECT_EQ(read.geometry.normalIndices[0].x, Geometry::kNoNormal);

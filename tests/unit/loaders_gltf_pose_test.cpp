@@ -87,12 +87,11 @@ TEST_F(GltfTest, SkinsFollowTheirJoints) {
 TEST_F(GltfTest, WeightsOfSkinsAreNormalised) {
     GltfFile file = skinnedFile();
     json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
-    // Integers without the flag, in two sets; no weight at all: the node's own place.
+    // Integers without the flag, and floats: 0.2 and 0.6. No weight at all: the node's own place.
     attributes["WEIGHTS_0"] =
         file.accessor(bytesOf({51, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 1), 5121, "VEC4", 3);
     attributes["JOINTS_1"] = file.accessor(bytesOf({1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, 2), 5123, "VEC4", 3);
-    attributes["WEIGHTS_1"] =
-        file.accessor(bytesOf({153, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, 1), 5121, "VEC4", 3);
+    attributes["WEIGHTS_1"] = file.floats({0.6f, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
     const std::vector<V> positions = mesh(file).geometry.positions;
     EXPECT_THAT(positions[0], IsNear(V(2.5, 0, 15), 1e-5f));
     EXPECT_THAT(positions[1], IsNear(V(101, 100, 100), 1e-5f));
