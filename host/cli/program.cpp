@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <system_error>
@@ -63,6 +65,17 @@ std::string describeParseError(const CLI::App& app, const CLI::ParseError& error
     return fmt::format("{} {}", error.what(), help);
 }
 
+/// Memory for what must not fail after an allocation has failed: some destructors allocate (nlohmann-json's),
+/// and messages do. It is not touched, so it takes only address space.
+constexpr std::size_t kMemoryReserve = std::size_t{16} << 20;
+std::unique_ptr<char[]> memoryReserve;
+
+[[noreturn]] void releaseMemoryReserve() {
+    memoryReserve.reset();
+    std::set_new_handler(nullptr);
+    throw std::bad_alloc();
+}
+
 }  // namespace
 
 void setUpProgram(CLI::App& app) {
@@ -88,6 +101,8 @@ bool parseArguments(CLI::App& app, std::vector<std::string> arguments) {
 
 int runMain(std::string_view name, const std::function<void()>& program) {
     openStandardStreams();
+    memoryReserve = std::make_unique<char[]>(kMemoryReserve);
+    std::set_new_handler(releaseMemoryReserve);
     const auto report = [&](std::string_view line, ExitStatus status) {
         say(fmt::format("{}: {}", name, line));
         return static_cast<int>(status);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -178,6 +179,8 @@ auto readExr(std::string_view bytes, const std::string& file, const Read& read) 
         return read(input,
                     Window{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), shift});
     } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& e) {
         throw InputError(file, "", std::string("is not a readable OpenEXR image: ") + e.what(), "");

@@ -97,7 +97,7 @@ void beginSegment(inout LightPath path, Vertex vertex, vec2 u) {
 // the segment continues.
 bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoing, Traversal ray, Triangle tri) {
     vec3 viewer = directionToCamera(path.segment.origin + path.segment.direction * ray.t);
-    SurfaceHit hit = meetTriangle(path.segment, path.crossings, ray, tri, viewer);
+    SurfaceHit hit = meetTriangle(path.segment, ray, tri, viewer);
     vec3 toEmitter = -path.segment.direction;
     float adjoint = materialScatters(hit.material, hit.front) ? shadingAdjoint(hit.point, toEmitter) : 0.0;
     Radiance2 scattered = scaled(matrixApply(opaqueOf(hit.materialIndex), path.flux),

@@ -50,7 +50,7 @@ void endSegment(inout Path path, inout Vertex vertex) {
 // The path has met a surface: emission, direct light, a candidate for scattering, and the crossing.
 void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout SampleRadiance received,
                  Traversal ray, Triangle tri) {
-    SurfaceHit hit = meetTriangle(path.segment, path.crossings, ray, tri, -path.segment.direction);
+    SurfaceHit hit = meetTriangle(path.segment, ray, tri, -path.segment.direction);
     ReflectanceMatrix onSegment = importanceOf(path);
     ReflectanceMatrix w = onSegment;
     if (kCoverage || kAttenuates) w = scaled(w, hit.transmittance * hit.coverage);

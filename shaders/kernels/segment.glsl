@@ -63,8 +63,8 @@ vec3 anisotropyTangent(Triangle tri, uint triangle, vec2 barycentric, vec3 front
     return dot(tangent, tangent) > 1e-6 ? normalize(tangent) : otherwise;
 }
 
-// `crossings`: surfaces crossed on the segment before. `viewer`: unit, from the point towards who looks at it.
-SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle tri, vec3 viewer) {
+// `viewer`: unit, from the point towards who looks at it.
+SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewer) {
     SurfaceHit hit;
     hit.materialIndex = tri.materialFlags & kMaterialMask;
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
@@ -90,7 +90,8 @@ SurfaceHit meetTriangle(Segment segment, uint crossings, Traversal ray, Triangle
         vec3 attenuation = fromInside || hit.front ? segment.attenuation : hit.bsdf.attenuation;
         hit.transmittance = exp(-attenuation * ray.t);
     }
-    bool behindOthers = kPlanes && crossings > 0u && segment.t == ray.t;
+    // The segment starts at a surface in the same plane, or has crossed one there.
+    bool behindOthers = kPlanes && segment.order != kNoTriangle && segment.t == ray.t;
     hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
     if (isTextured(kGroupNormal) && kVertexRecords) {
         // A loop, because only loops skip what no lane needs. Without a normal map, and where that is flat, the normal

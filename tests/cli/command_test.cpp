@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/cli/run_duolux.h"
+#include "tests/support/address_space.h"
 
 namespace duolux::test {
 namespace {
@@ -44,6 +45,32 @@ TEST_F(Command, StandardOutputThatCannotBeWrittenIsAnError) {
         runProgram("/bin/sh", folder_.path(), {"-c", "exec \"$0\" devices > /dev/full", DUOLUX_EXECUTABLE});
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(result.err, "duolux: standard output: cannot write: No space left on device\n");
+}
+
+/// Wherever an allocation fails, also while memory is freed, there is one line and an exit status.
+TEST_F(Command, TooLittleMemoryForASceneIsOneLine) {
+    if (kAddressSanitizer) return;  // needs more than any limit
+    std::ofstream scene(folder_.path() / "large.json");
+    scene << R"({"duolux": 1, "objects": [[]])";
+    for (int i = 0; i < 300000; ++i)
+        scene << ", [0, 1]";
+    scene << "]}";
+    scene.close();
+    const ProgramResult enough = run({"info", "large.json"});
+    ASSERT_EQ(enough.status, 3) << enough.err;  // it is no scene
+    int failed = 0;
+    for (int mebibytes = 60; mebibytes <= 130; mebibytes += 5) {
+        const ProgramResult result = runProgram(
+            "/bin/sh", folder_.path(),
+            {"-c", "ulimit -v " + std::to_string(mebibytes * 1024) + "; exec \"$0\" info large.json",
+             DUOLUX_EXECUTABLE});
+        if (result.status == 3) continue;
+        ++failed;
+        EXPECT_EQ(result.status, 1) << mebibytes << " " << result.err;
+        EXPECT_THAT(result.err, HasSubstr("out of memory")) << mebibytes;
+        EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << mebibytes;
+    }
+    EXPECT_GT(failed, 3);
 }
 
 TEST_F(Command, DevicesShowsTheSoftwareDriverAndTheChoice) {

@@ -171,7 +171,7 @@ TEST_F(RenderCommand, SaysThatLightPathsDoNotShowMirrors) {
             << roughness << "}}}";
         return scene.string();
     };
-    const std::string warning = "material \"white\": light paths do not show what a mirror reflects";
+    const std::string warning = "material \"white\": light paths do not show what a smooth surface reflects";
     const std::vector<std::string> small{"--size", "4x4", "--spp", "1", "-o", "a.png"};
     std::vector<std::string> byLight = small;
     byLight.insert(byLight.end(), {"--integrator", "light"});

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "host/render/render.h"
 #include "tests/support/device.h"
@@ -164,6 +165,53 @@ TEST_F(Lamp, InThePlaneOfACeilingShines) {
         }
     }
     builder_ = floor;
+}
+
+/// The back of the lamp lights the wall that it lies on, and nothing in front of it.
+TEST_F(Lamp, WithTwoSidesOnAWallDoesNotShineThroughItself) {
+    Material both = lamp(), wall;
+    both.emission.sides = Sides::kBoth;
+    both.baseColor = wall.baseColor = glm::vec3(1.0f);
+    for (const bool lampFirst : {false, true}) {
+        for (const Integrator integrator : {Integrator::kPathTracer, Integrator::kLightTracer}) {
+            SceneBuilder scene;
+            scene.scene.reflectance = preset("global");
+            scene.scene.settings = builder_.scene.settings;
+            scene.scene.settings.bounces = 2;
+            builder_ = scene;
+            if (lampFirst) plate(1.0f, 1.0f, both, true);
+            plate(3.0f, 1.0f, wall, false);
+            if (!lampFirst) plate(1.0f, 1.0f, both, true);
+            lookUp();
+            EXPECT_NEAR(meanBy(builder_.scene, integrator, 4096), 1.0, 0.02) << lampFirst;
+        }
+    }
+}
+
+/// A floor and a coincident second one, of which T passes light to the scattering vertex between them: no
+/// light from below reaches a camera above.
+TEST_F(Lamp, LightDoesNotLeakThroughCoincidentFloors) {
+    for (const char* const name : {"shadowless", "global"}) {
+        for (const bool sheetFirst : {false, true}) {
+            for (const Integrator integrator : {Integrator::kPathTracer, Integrator::kLightTracer}) {
+                SceneBuilder scene;
+                scene.scene.reflectance = preset(name);
+                scene.scene.settings = builder_.scene.settings;
+                scene.scene.settings.bounces = 3;
+                builder_ = scene;
+                Material floor, sheet;
+                floor.baseColor = sheet.baseColor = glm::vec3(0.8f);
+                if (std::string(name) == "global")
+                    sheet.reflectance = Reflectance{preset(name).opaque, matrix(0.5f, 0.0f, 0.0f, 0.5f)};
+                if (sheetFirst) plate(4.0f, 0.0f, sheet, false);
+                plate(4.0f, 0.0f, floor, false);
+                if (!sheetFirst) plate(4.0f, 0.0f, sheet, false);
+                plate(1.0f, -1.0f, lamp(), false);
+                lookAtFloor();
+                EXPECT_EQ(meanBy(builder_.scene, integrator, 512), 0.0) << name << sheetFirst;
+            }
+        }
+    }
 }
 
 // A transmitting surface before a scattering one: the scattering vertex is on the second.
