@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -65,10 +66,17 @@ std::string describeParseError(const CLI::App& app, const CLI::ParseError& error
     return fmt::format("{} {}", error.what(), help);
 }
 
-/// Memory for what must not fail after an allocation has failed: some destructors allocate (nlohmann-json's),
-/// and messages do. It is not touched, so it takes only address space.
-constexpr std::size_t kMemoryReserve = std::size_t{16} << 20;
+/// Memory for what must not fail after an allocation has failed: messages, and destructors that allocate,
+/// such as those of large JSON documents. It is not touched, so it takes only address space.
 std::unique_ptr<char[]> memoryReserve;
+
+void reserveMemory() {
+    constexpr std::uint64_t kMost = std::uint64_t{64} << 20, kLeast = std::uint64_t{1} << 20;
+    for (std::uint64_t size = std::min(kMost, addressSpaceLimit() / 3); size >= kLeast; size /= 2) {
+        memoryReserve.reset(new (std::nothrow) char[static_cast<std::size_t>(size)]);
+        if (memoryReserve) return;
+    }
+}
 
 [[noreturn]] void releaseMemoryReserve() {
     memoryReserve.reset();
@@ -101,7 +109,7 @@ bool parseArguments(CLI::App& app, std::vector<std::string> arguments) {
 
 int runMain(std::string_view name, const std::function<void()>& program) {
     openStandardStreams();
-    memoryReserve = std::make_unique<char[]>(kMemoryReserve);
+    reserveMemory();
     std::set_new_handler(releaseMemoryReserve);
     const auto report = [&](std::string_view line, ExitStatus status) {
         say(fmt::format("{}: {}", name, line));

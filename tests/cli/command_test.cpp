@@ -52,14 +52,14 @@ TEST_F(Command, TooLittleMemoryForASceneIsOneLine) {
     if (kAddressSanitizer) return;  // needs more than any limit
     std::ofstream scene(folder_.path() / "large.json");
     scene << R"({"duolux": 1, "objects": [[]])";
-    for (int i = 0; i < 300000; ++i)
+    for (int i = 0; i < 600000; ++i)
         scene << ", [0, 1]";
     scene << "]}";
     scene.close();
     const ProgramResult enough = run({"info", "large.json"});
     ASSERT_EQ(enough.status, 3) << enough.err;  // it is no scene
     int failed = 0;
-    for (int mebibytes = 60; mebibytes <= 130; mebibytes += 5) {
+    for (int mebibytes = 50; mebibytes <= 140; mebibytes += 5) {
         const ProgramResult result = runProgram(
             "/bin/sh", folder_.path(),
             {"-c", "ulimit -v " + std::to_string(mebibytes * 1024) + "; exec \"$0\" info large.json",
