@@ -51,7 +51,7 @@ TEST_F(Command, StandardOutputThatCannotBeWrittenIsAnError) {
 TEST_F(Command, TooLittleMemoryForASceneIsOneLine) {
     if (kAddressSanitizer) return;  // needs more than any limit
     std::ofstream scene(folder_.path() / "large.json");
-    scene << R"({"duolux": 1, "objects": [[]])";
+    scene << R"({"duolux": 1, "objects": [[])";
     for (int i = 0; i < 600000; ++i)
         scene << ", [0, 1]";
     scene << "]}";
