@@ -6,6 +6,7 @@
 # Through glslang's dependency file, a changed header rebuilds the kernels that include it.
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 find_program(SPIRV_VAL NAMES spirv-val REQUIRED)
+find_program(SPIRV_OPT NAMES spirv-opt REQUIRED)
 
 function(duolux_shader target name source)
   cmake_parse_arguments(ARG "" "" "DEFINES" ${ARGN})
@@ -19,6 +20,8 @@ function(duolux_shader target name source)
     OUTPUT ${spv}
     COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${CMAKE_SOURCE_DIR} ${ARG_DEFINES}
             --depfile ${spv}.d -o ${spv} ${input}
+    # Drops what constants of the preprocessor leave without use; the driver would read and compile it first.
+    COMMAND ${SPIRV_OPT} --eliminate-dead-branches --eliminate-dead-functions --eliminate-dead-code-aggressive ${spv} -o ${spv}
     COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
     DEPENDS ${input}
     DEPFILE ${spv}.d

@@ -220,6 +220,11 @@ DeviceScene assemble(const Device& device, const Scene& scene, MaterialsAndEmitt
 
 }  // namespace
 
+bool DeviceScene::isPlain() const {
+    return transport.traits.lobes == shared::kLobeDiffuse && transport.textureGroups == 0 &&
+           !transport.traits.coverage;
+}
+
 std::vector<Binding> DeviceScene::bindings() const {
     std::vector<Binding> all;
     forEachBuffer(buffers, [&](std::uint32_t binding, const Buffer& buffer) {

@@ -90,6 +90,9 @@ struct DeviceScene {
     /// The part of it that traversal needs.
     std::vector<Binding> treeBindings() const;
     std::uint64_t deviceBytes() const;
+
+    /// All surfaces are diffuse, without images, and there entirely: kernels need no code for anything else.
+    bool isPlain() const;
 };
 
 /// Throws MemoryError, with the numbers, if a scene of this size does not fit into the memory of a GPU. Not

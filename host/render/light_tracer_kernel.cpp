@@ -54,13 +54,21 @@ std::vector<Binding> lightBindings(std::vector<Binding> bindings, const Buffer& 
     return bindings;
 }
 
-std::span<const std::uint32_t> chooseVariant(const Device& device, Layout layout, bool noInt64Atomics) {
+std::span<const std::uint32_t> chooseVariant(const Device& device, const DeviceScene& deviceScene,
+                                             bool noInt64Atomics) {
+    const Layout layout = deviceScene.tuning.layout;
     if (device.info().int64Atomics && !noInt64Atomics) {
-        return variantFor(layout, spirv::kLightTracerInt64Texel, spirv::kLightTracerInt64Storage,
-                          spirv::kLightTracerInt64RayQuery);
+        return deviceScene.isPlain()
+                   ? variantFor(layout, spirv::kLightTracerInt64PlainTexel,
+                                spirv::kLightTracerInt64PlainStorage, spirv::kLightTracerInt64PlainRayQuery)
+                   : variantFor(layout, spirv::kLightTracerInt64Texel, spirv::kLightTracerInt64Storage,
+                                spirv::kLightTracerInt64RayQuery);
     }
-    return variantFor(layout, spirv::kLightTracerTexel, spirv::kLightTracerStorage,
-                      spirv::kLightTracerRayQuery);
+    return deviceScene.isPlain()
+               ? variantFor(layout, spirv::kLightTracerPlainTexel, spirv::kLightTracerPlainStorage,
+                            spirv::kLightTracerPlainRayQuery)
+               : variantFor(layout, spirv::kLightTracerTexel, spirv::kLightTracerStorage,
+                            spirv::kLightTracerRayQuery);
 }
 
 }  // namespace
@@ -90,8 +98,7 @@ LightTracerKernel::LightTracerKernel(const RenderInputs& inputs, std::uint32_t m
                                 "results")),
       filmRead_(Buffer::readback(inputs.device, readPixels_ * kPixelBytes, "film")),
       film_(makeFilm(inputs.device, pixels_, bandPixels_)),
-      kernel_(inputs.device, "light",
-              chooseVariant(inputs.device, inputs.deviceScene.tuning.layout, limits.noInt64Atomics),
+      kernel_(inputs.device, "light", chooseVariant(inputs.device, inputs.deviceScene, limits.noInt64Atomics),
               lightBindings(sceneBindings(inputs.deviceScene, params_), results_, teams_, film_),
               lightTracerSpecialization(inputs, film_.size(), bandPixels_),
               sizeof(shared::LightTracerDispatch)),

@@ -40,6 +40,14 @@ Buffer uploadPixels(const Device& device, std::span<const std::uint32_t> pixels,
     return Buffer::upload<std::uint32_t>(device, BufferUse::kTexels, all, "pixel order");
 }
 
+std::span<const std::uint32_t> chooseVariant(const DeviceScene& deviceScene) {
+    const Layout layout = deviceScene.tuning.layout;
+    return deviceScene.isPlain() ? variantFor(layout, spirv::kPathTracerPlainTexel,
+                                              spirv::kPathTracerPlainStorage, spirv::kPathTracerPlainRayQuery)
+                                 : variantFor(layout, spirv::kPathTracerTexel, spirv::kPathTracerStorage,
+                                              spirv::kPathTracerRayQuery);
+}
+
 }  // namespace
 
 std::vector<Specialization> pathTracerSpecialization(const RenderInputs& inputs, bool closedForm) {
@@ -71,9 +79,7 @@ PathTracerKernel::PathTracerKernel(const RenderInputs& inputs, std::span<const s
       layerResults_(Buffer::readback(
           inputs.device,
           std::max(2 * sizeof(std::int64_t) * maxPixels * layerChannels_, sizeof(std::int64_t)), "layers")),
-      kernel_(inputs.device, "path",
-              variantFor(inputs.deviceScene.tuning.layout, spirv::kPathTracerTexel, spirv::kPathTracerStorage,
-                         spirv::kPathTracerRayQuery),
+      kernel_(inputs.device, "path", chooseVariant(inputs.deviceScene),
               pathBindings(sceneBindings(inputs.deviceScene, params_), pixelOrder_, results_, layerResults_,
                            teams_),
               pathTracerSpecialization(inputs, closedForm), sizeof(shared::PathTracerDispatch)),

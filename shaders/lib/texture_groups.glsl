@@ -6,8 +6,13 @@
 #include "shaders/shared/kernel_interface.h"
 #include "shaders/shared/texture_layout.h"
 
+#ifdef DUOLUX_PLAIN
+const uint kTextureGroups = 0u;
+const bool kCoverage = false;
+#else
 layout(constant_id = kSpecTextureGroups) const uint kTextureGroups = 0u;
 layout(constant_id = kSpecCoverage) const bool kCoverage = false;
+#endif
 
 bool isTextured(uint group) { return (kTextureGroups & (1u << group)) != 0u; }
 

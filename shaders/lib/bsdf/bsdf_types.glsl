@@ -46,7 +46,11 @@ struct BsdfFrame {
     vec3 tangent;  // used only by anisotropic lobes
 };
 
+#ifdef DUOLUX_PLAIN
+const uint kLobes = kLobeDiffuse;
+#else
 layout(constant_id = kSpecLobes) const uint kLobes = kAllLobes;
+#endif
 
 const bool kAnisotropic = (kLobes & kLobeAnisotropic) != 0u;
 
