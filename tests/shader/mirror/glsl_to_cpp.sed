@@ -4,6 +4,8 @@
 s@ *//.*@@
 # library.inc includes each file once, in order; code for C++ alone is left out.
 /^#ifdef __cplusplus/,/^#endif/d
+# Of kernels, those for all scenes.
+/^#ifdef DUOLUX_PLAIN/,/^#else/d
 /^#(include|extension|ifndef|define|endif)\b/d
 /^ *DUOLUX_(BEGIN|END|COUNT_NODE|COUNT_PAIR)$/d
 
