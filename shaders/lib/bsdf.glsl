@@ -268,7 +268,7 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
         float cosine = bsdfCosine(frame, s.wi, mode);
         if (deltaFacets || deltaCoat) {
             // f is a delta distribution over the cosine to the shading normal.
-            float ratio = cosine / max(abs(i.z), 1e-30);
+            float ratio = cosine / max(abs(dot(frame.shading, s.wi)), 1e-30);
             float probability = deltaCoat ? strategies.clearcoat : strategies.facets;
             vec3 weight = vec3(0.0);
             if (deltaFacets) weight = smoothWeight(bsdf, strategies, o, i, refraction, mode);

@@ -184,7 +184,7 @@ TEST(MirrorReflects) {
     EXPECT_NEAR(s.wi, 2.0 * dot(wo, frame.geometric) * frame.geometric - wo, 3e-3);
     EXPECT_EQ(s.pdf, kDeltaPdf);
     vec3 fresnel = mirror().baseColor + (1.0 - mirror().baseColor) * pow(1.0 - cosine, 5.0);
-    EXPECT_NEAR(s.weight, fresnel, 1e-4);
+    EXPECT_NEAR(s.weight, fresnel, 1e-5);
     EXPECT_EQ(bsdfEvaluate(mirror(), frame, wo, s.wi, mode), vec3(0.0));
 }
 
