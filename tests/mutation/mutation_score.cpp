@@ -4,6 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "host/base/error.h"
 #include "tests/mutation/try_mutations.h"
@@ -22,18 +25,22 @@ int main(int argc, char** argv) {
     try {
         const std::filesystem::path lists = DUOLUX_MUTATION_LISTS;
         const std::filesystem::path project = DUOLUX_SOURCE_ROOT;
-        test::MutationList library = test::readMutations(lists / "library.txt", project / "shaders");
+        std::vector<test::MutationList> library;
+        for (const auto& entry : std::filesystem::directory_iterator(lists / "library"))
+            library.push_back(test::readMutations(entry.path(), project / "shaders"));
         test::MutationList program = test::readMutations(lists / "program.txt", project);
         if (check) return 0;
-        library.keepOnly(only);
+        for (test::MutationList& list : library)
+            list.keepOnly(only);
+        std::erase_if(library, [](const test::MutationList& list) { return list.mutations.empty(); });
         program.keepOnly(only);
-        if (library.mutations.empty() && program.mutations.empty())
+        if (library.empty() && program.mutations.empty())
             throw UsageError(fmt::format("no mutation of a file whose name contains \"{}\"", only));
         setenv("GTEST_FAIL_FAST", "1", 1);
         bool good = true;
-        if (!library.mutations.empty()) {
-            test::tryInLibrary(library);
-            good = test::printScore(library, goal);
+        for (test::MutationList& list : library) {
+            test::tryInLibrary(list);
+            good = test::printScore(list, goal) && good;
         }
         if (!program.mutations.empty()) {
             test::tryInProgram(program);
