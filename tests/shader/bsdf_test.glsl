@@ -61,6 +61,14 @@ Bsdf randomBsdf() {
     return bsdf;
 }
 
+// What light that arrives from the other side meets.
+Bsdf fromOtherSide(Bsdf bsdf) {
+    if (!isThin(bsdf)) bsdf.eta = 1.0 / bsdf.eta;
+    bsdf.flags ^= kBsdfOutside;
+    return bsdf;
+}
+BsdfFrame fromOtherSide(BsdfFrame frame) { return BsdfFrame(-frame.shading, -frame.geometric, frame.tangent); }
+
 uint randomMode() { return randomUint() & 1u; }
 
 // Helmholtz: f(wo, wi) = f(wi, wo) on one side, and n_i^2 f(wo, wi) = n_o^2 f(wi, wo) through glass, whose other side
@@ -72,14 +80,8 @@ TEST(IsReciprocal) {
     vec3 wi = onEitherSide();
     vec3 f = bsdfEvaluate(bsdf, frame, wo, wi, kModeRadiance);
     bool through = dot(wi, frame.geometric) < 0.0;
-    Bsdf other = bsdf;
-    BsdfFrame otherFrame = frame;
-    if (through) {
-        if (!isThin(bsdf)) other.eta = 1.0 / bsdf.eta;
-        other.flags ^= kBsdfOutside;
-        // Mirrored at the surface: the tangent and the sign of the bitangent remain.
-        otherFrame = BsdfFrame(-frame.shading, -frame.geometric, frame.tangent);
-    }
+    Bsdf other = through ? fromOtherSide(bsdf) : bsdf;
+    BsdfFrame otherFrame = through ? fromOtherSide(frame) : frame;
     float ratio = through && !isThin(bsdf) ? bsdf.eta * bsdf.eta : 1.0;
     vec3 back = bsdfEvaluate(other, otherFrame, wi, wo, kModeRadiance);
     EXPECT_NEAR(f * ratio, back, 1e-3 * maxComponent(f * ratio) + 1e-6);
@@ -92,13 +94,8 @@ TEST(BothModesEvaluateOneFunction) {
     vec3 view = above(frame.geometric);
     vec3 light = onEitherSide();
     bool through = dot(light, frame.geometric) < 0.0;
-    Bsdf other = bsdf;
-    BsdfFrame otherFrame = frame;
-    if (through) {
-        if (!isThin(bsdf)) other.eta = 1.0 / bsdf.eta;
-        other.flags ^= kBsdfOutside;
-        otherFrame = BsdfFrame(-frame.shading, -frame.geometric, frame.tangent);
-    }
+    Bsdf other = through ? fromOtherSide(bsdf) : bsdf;
+    BsdfFrame otherFrame = through ? fromOtherSide(frame) : frame;
     // The light's side of the shading normal decides whether it is there at all.
     vec3 f = bsdfEvaluate(bsdf, frame, view, light, kModeRadiance);
     vec3 adjoint = bsdfEvaluate(other, otherFrame, light, view, kModeImportance);
