@@ -51,6 +51,12 @@ void connectToEmitter(inout Shadow shadow, inout SampleRadiance received, Surfac
         shadow.pending = true;
         shadow.segment = leaveVertex(hit.point, hit.bsdf, sampled.wi);
         shadow.distance = sampled.distance;
+        if (kTransmits) {
+            // A ray that leaves on the other side starts there, nearer to the emitter, which must not hide itself.
+            vec3 toEmitter = hit.point.position + sampled.wi * sampled.distance - shadow.segment.origin;
+            shadow.distance = length(toEmitter);
+            shadow.segment.direction = toEmitter / shadow.distance;
+        }
         shadow.beforeOrder = kNoTriangle;
         if (sampled.coincident != kNoTriangle) {
             Plane plane = fetchPlane(sampled.coincident);
