@@ -29,8 +29,12 @@ fs::path folderOf(const fs::path& path) {
 
 std::string readFile(const fs::path& path) {
     std::error_code ec;
-    if (fs::is_directory(path, ec)) {
-        throw InputError(path.string(), "", "is a directory", "expected a file");
+    const fs::file_status status = fs::status(path, ec);
+    // Opening a pipe would wait until another program writes to it.
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        throw InputError(path.string(), "",
+                         fs::is_directory(status) ? "is a directory" : "is a pipe or a device",
+                         "expected a file");
     }
     errno = 0;
     std::ifstream in(path, std::ios::binary);

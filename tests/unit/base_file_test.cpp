@@ -16,6 +16,7 @@
 #include <functional>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/file.h"
@@ -329,6 +330,22 @@ TEST_F(FileTest, ErrorsOfTheProgramPassThrough) {
     const auto fail = [](FileWriter&) { throw InputError("scene.json", "", "is odd", ""); };
     EXPECT_THROW(writeFileAtomically(folder_ / "f", fail), InputError);
     EXPECT_EQ(filesInFolder(), 0u);
+}
+
+/// Opening a pipe for reading would wait for a writer.
+TEST_F(FileTest, ReadingRefusesWhatIsNoFile) {
+    const fs::path pipe = folder_ / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const auto& [path, problem] :
+         {std::pair(pipe, "is a pipe or a device"), std::pair(fs::path("/dev/zero"), "is a pipe or a device"),
+          std::pair(folder_, "is a directory"), std::pair(folder_ / "none", "cannot open: No such file")}) {
+        try {
+            readFile(path);
+            ADD_FAILURE() << path;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(problem)) << path;
+        }
+    }
 }
 
 }  // namespace
