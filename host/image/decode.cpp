@@ -11,6 +11,7 @@
 #include "host/base/error.h"
 #include "host/base/file.h"
 #include "host/film/codec.h"
+#include "host/image/convert.h"
 #include "host/image/hdr.h"
 #include "host/image/stb_image.h"
 
@@ -105,6 +106,7 @@ DecodedImage decodeImage(const ImageSource& source) {
     }
     image.name = source.name;
     decoded.nonFinite = replaceNonFinite(image.floats);
+    convert(image, source.conversion);
     decoded.image = std::make_shared<const Image>(std::move(image));
     return decoded;
 }

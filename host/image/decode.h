@@ -15,8 +15,9 @@ struct DecodedImage {
 };
 
 /// Decodes an image by its content: PNG, JPEG, Radiance HDR, or OpenEXR with channels R, G, B, or Y, and A.
-/// Samples of 16 bits become fractions of 65535. Throws InputError, which names the source, if there is no
-/// such file, or if it is none of these or damaged. Allocates no more than the file can fill.
+/// Samples of 16 bits become fractions of 65535. Converts the values as the source says. Throws InputError,
+/// which names the source, if there is no such file, or if it is none of these or damaged. Allocates no more
+/// than the file can fill.
 DecodedImage decodeImage(const ImageSource& source);
 
 }  // namespace duolux

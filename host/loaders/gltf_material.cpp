@@ -74,10 +74,10 @@ class GltfMaterialReader {
     }
 
     void texture(const JsonNode& node, const char* key, MaterialInput input, std::uint32_t channel = kRed,
-                 ColourSpace colourSpace = ColourSpace::kLinear) {
+                 ColourSpace colourSpace = ColourSpace::kLinear, const ImageConversion& conversion = {}) {
         const auto info = node.find(key);
         if (!info) return;
-        if (const auto read = textures_.read(*info, colourSpace))
+        if (const auto read = textures_.read(*info, colourSpace, conversion))
             material_.textures.push_back({input, *read, channel});
     }
 
@@ -128,8 +128,10 @@ class GltfMaterialReader {
         material_.roughness = 1.0f - glossiness;
         material_.specularColor = reflectance / kReflectance;
         colourTexture(node, "specularGlossinessTexture", MaterialInput::kSpecularColor);
-        if (const auto image = node.find("specularGlossinessTexture"))
-            notes_.ignore(*image, "glossiness in an image is not supported", "its factor is used");
+        if (!node.find("specularGlossinessTexture")) return;
+        texture(node, "specularGlossinessTexture", MaterialInput::kRoughness, kRed, ColourSpace::kLinear,
+                {.kind = ImageConversion::Kind::kGlossiness, .channel = kAlphaChannel, .factor = glossiness});
+        if (hasTexture(material_, MaterialInput::kRoughness)) material_.roughness = 1.0f;
     }
 
     void readNormal() {

@@ -36,7 +36,8 @@ void readTransform(const JsonNode& node, Texture& texture) {
 
 }  // namespace
 
-std::optional<Texture> GltfTextures::read(const JsonNode& info, ColourSpace colourSpace) {
+std::optional<Texture> GltfTextures::read(const JsonNode& info, ColourSpace colourSpace,
+                                          const ImageConversion& conversion) {
     const JsonNode& node =
         document_.element(info.require("index", "expected the index of a texture"), "textures");
     Texture texture;
@@ -52,7 +53,7 @@ std::optional<Texture> GltfTextures::read(const JsonNode& info, ColourSpace colo
         notes_.ignore(node, "a texture without an image in a known format", "ignored");
         return std::nullopt;
     }
-    texture.image = imageOf(*image);
+    texture.image = imageOf(*image, conversion);
     if (const auto sampler = node.find("sampler"))
         readSampler(document_.element(*sampler, "samplers"), texture);
     return texture;
@@ -85,10 +86,16 @@ Wrap GltfTextures::readWrap(const JsonNode& sampler, const char* key) {
     }
 }
 
-std::uint32_t GltfTextures::imageOf(const JsonNode& node) {
+std::uint32_t GltfTextures::imageOf(const JsonNode& node, const ImageConversion& conversion) {
     const std::uint32_t index = document_.index(node, "images");
-    const auto [entry, isNew] = indices_.try_emplace(index, static_cast<std::uint32_t>(images_.size()));
-    if (isNew) images_.push_back(readImage(document_.list("images")[index]));
+    const auto [entry, isNew] =
+        indices_.try_emplace({index, conversion}, static_cast<std::uint32_t>(images_.size()));
+    if (!isNew) return entry->second;
+    auto source = sources_.find(index);
+    if (source == sources_.end())
+        source = sources_.emplace(index, readImage(document_.list("images")[index])).first;
+    images_.push_back(source->second);
+    images_.back().conversion = conversion;
     return entry->second;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/loaders/gltf_buffers.h"
@@ -20,8 +21,9 @@ class GltfTextures {
         : document_(document), buffers_(buffers), notes_(notes) {}
 
     /// The texture to which a texture info refers, such as the value of "baseColorTexture". Empty, with a
-    /// warning, if it cannot be used. Throws InputError.
-    std::optional<Texture> read(const JsonNode& info, ColourSpace colourSpace);
+    /// warning, if it cannot be used. Throws InputError. `conversion`: of the image.
+    std::optional<Texture> read(const JsonNode& info, ColourSpace colourSpace,
+                                const ImageConversion& conversion = {});
 
     /// Texture::image is an index into these.
     std::vector<ImageSource>& images() { return images_; }
@@ -31,14 +33,16 @@ class GltfTextures {
   private:
     void readSampler(const JsonNode& node, Texture& texture);
     Wrap readWrap(const JsonNode& sampler, const char* key);
-    std::uint32_t imageOf(const JsonNode& index);
+    std::uint32_t imageOf(const JsonNode& index, const ImageConversion& conversion);
     ImageSource readImage(const JsonNode& node);
 
     const GltfDocument& document_;
     GltfBuffers& buffers_;
     GltfNotes& notes_;
     std::vector<ImageSource> images_;
-    std::map<std::uint32_t, std::uint32_t> indices_;  ///< in images_, of the file's images
+    std::map<std::uint32_t, ImageSource> sources_;  ///< of the file's images
+    /// In images_, by the index in the file.
+    std::map<std::pair<std::uint32_t, ImageConversion>, std::uint32_t> indices_;
     std::vector<std::filesystem::path> files_;
 };
 

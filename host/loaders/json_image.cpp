@@ -64,7 +64,9 @@ fs::path identity(const fs::path& path) {
 JsonImages::JsonImages(std::vector<ImageSource>& sources, std::vector<fs::path>& files)
     : sources_(sources), files_(files) {
     for (std::uint32_t i = 0; i < sources.size(); ++i) {
-        if (!sources[i].path.empty()) indices_.try_emplace(identity(sources[i].path), i);
+        const ImageSource& source = sources[i];
+        if (!source.path.empty() && source.conversion == ImageConversion())
+            indices_.try_emplace(identity(source.path), i);
     }
 }
 

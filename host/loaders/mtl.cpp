@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "host/base/printable.h"
+#include "host/loaders/mtl_images.h"
 #include "host/loaders/mtl_map.h"
 #include "host/loaders/mtl_material.h"
 #include "host/loaders/mtl_unused.h"
@@ -103,6 +104,11 @@ constexpr MtlImageStatement kMtlImages[] = {
     {"map_Pcr", MtlImage::kClearcoatRoughness, ColourSpace::kLinear},
     {"map_Ps", MtlImage::kSheen, ColourSpace::kSrgb},
     {"norm", MtlImage::kNormal, ColourSpace::kLinear},
+    {"map_bump", MtlImage::kBump, ColourSpace::kLinear},
+    {"map_Bump", MtlImage::kBump, ColourSpace::kLinear},
+    {"bump", MtlImage::kBump, ColourSpace::kLinear},
+    {"Bump", MtlImage::kBump, ColourSpace::kLinear},
+    {"map_Ns", MtlImage::kExponent, ColourSpace::kLinear},
 };
 
 /// The statement of this keyword; null if there is none in the list.
@@ -117,10 +123,7 @@ const Statement* findStatement(const Statement (&statements)[kCount], std::strin
 class MtlReader {
   public:
     MtlReader(const std::filesystem::path& path, FileFinder& finder, Reading reading)
-        : text_(path, "a Wavefront MTL file"),
-          folder_(path.parent_path()),
-          finder_(finder),
-          reading_(reading) {}
+        : text_(path, "a Wavefront MTL file"), images_(path.parent_path(), finder), reading_(reading) {}
 
     MaterialLibrary run() {
         const std::string_view all = text_.view();
@@ -132,6 +135,7 @@ class MtlReader {
         finishMaterial();
         if (!anyMaterial_) library_.warnings.push_back(fmt::format("{}: defines no material", text_.file()));
         warn();
+        library_.images = std::move(images_.sources());
         return std::move(library_);
     }
 
@@ -183,7 +187,7 @@ class MtlReader {
         inMaterial_ = false;
         const auto index = static_cast<std::uint32_t>(library_.materials.size());
         const bool isNew = library_.byName.try_emplace(material_.name, index).second;
-        for (const std::string_view keyword : mapMtl(values_, material_)) {
+        for (const std::string_view keyword : mapMtl(values_, material_, images_)) {
             const auto place = places_.find(keyword);
             if (place != places_.end()) unused_.addInapplicable(keyword, place->second);
         }
@@ -273,13 +277,14 @@ class MtlReader {
             unused_.addOption(option, offsetOf(line));
         const bool isNormal = statement.image == MtlImage::kNormal;
         const bool isNumber = statement.colourSpace == ColourSpace::kLinear && !isNormal;
+        const bool hasScale = isNormal || statement.image == MtlImage::kBump;
         if (map.hasChannel && !isNumber) unused_.addOption("-imfchan", offsetOf(line));
-        if (map.scale != 1.0 && !isNormal) unused_.addOption("-bm", offsetOf(line));
+        if (map.scale != 1.0 && !hasScale) unused_.addOption("-bm", offsetOf(line));
         if (plainName(map.file).empty()) {
             return tolerate(Oddity::kUnnamedImage, line, fmt::format("{} names no image", statement.keyword),
                             fmt::format("expected \"{} FILE\"", statement.keyword));
         }
-        const std::optional<std::uint32_t> image = imageOf(map.file);
+        const std::optional<std::uint32_t> image = images_.fileOf(map.file);
         if (!image) {
             if (oddities_[Oddity::kMissingImage].count == 0) missing_ = withSlashes(plainName(map.file));
             return tolerate(Oddity::kMissingImage, line,
@@ -295,19 +300,9 @@ class MtlReader {
         use.channel = isNumber ? map.channel : 0;
         use.hasChannel = map.hasChannel;
         use.scale = map.scale;
+        use.base = map.base;
+        use.gain = map.gain;
         values_.image(statement.image) = use;
-    }
-
-    /// The index of the image of this name; empty if there is no such file.
-    std::optional<std::uint32_t> imageOf(std::string_view name) {
-        const auto [entry, isNew] = imagesByName_.try_emplace(std::string(name));
-        if (!isNew) return entry->second;
-        const auto file = finder_.find(folder_, name, kImageNames);
-        if (!file) return std::nullopt;
-        const auto [index, isNewFile] =
-            imagesByFile_.try_emplace(*file, static_cast<std::uint32_t>(library_.images.size()));
-        if (isNewFile) library_.images.push_back({file->string(), *file, nullptr});
-        return entry->second = index->second;
     }
 
     void tolerateRange(std::string_view line, std::string_view keyword, double smallest, double largest) {
@@ -345,15 +340,12 @@ class MtlReader {
     }
 
     const SourceText text_;
-    const std::filesystem::path folder_;
-    FileFinder& finder_;
+    MtlImages images_;
     const Reading reading_;
     MaterialLibrary library_;
     Tally<Oddity> oddities_;
     std::string definedAgain_, aboveOne_, missing_;  ///< the first of their kind
     MtlUnused unused_;
-    std::unordered_map<std::string, std::optional<std::uint32_t>> imagesByName_;
-    std::map<std::filesystem::path, std::uint32_t> imagesByFile_;
     Material material_;                               ///< the current one
     MtlValues values_;                                ///< of the current material
     std::map<std::string_view, std::size_t> places_;  ///< of the current material: offsets by keyword

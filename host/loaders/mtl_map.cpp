@@ -20,7 +20,7 @@ enum class MapOption {
     kScale,
     kBump,
     kChannel,
-    kGain,    ///< base and gain of values
+    kGain,
     kUnused,  ///< nothing, unless off or 0
     kUnknown
 };
@@ -118,7 +118,10 @@ class MapReader {
             case MapOption::kChannel:
                 return chooseChannel(value);
             case MapOption::kGain:
-                return numbers.x == 0.0 && (count < 2 || numbers.y == 1.0);
+                if (count == 0 || !isUsual(numbers)) return false;
+                map_.base = numbers.x;
+                if (count > 1) map_.gain = numbers.y;
+                return true;
             case MapOption::kUnused:
                 return value == "off" || (value.empty() && numbers == glm::dvec3(0.0));
             case MapOption::kUnknown:

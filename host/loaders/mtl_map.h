@@ -15,7 +15,8 @@ struct MtlMap {
     Wrap wrap = Wrap::kRepeat;
     Filter filter = Filter::kLinear;
     UvTransform transform;                 ///< in this project's convention, v down the image
-    double scale = 1.0;                    ///< -bm, of normals
+    double scale = 1.0;                    ///< -bm, of bumps and normals
+    double base = 0.0, gain = 1.0;         ///< -mm, of values
     std::uint32_t channel = 0;             ///< as MaterialTexture
     bool hasChannel = false;               ///< whether the statement chooses it
     std::vector<std::string_view> unused;  ///< options without effect here

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/scene/material_textures.h"
+#include "host/scene/roughness.h"
 
 namespace duolux {
 
@@ -18,6 +20,8 @@ constexpr double kUnnoticedHue = 0.1;
 constexpr double kBlack = 0.02;
 /// Reflections as in a mirror are rough below this exponent, where highlights are wide.
 constexpr double kMirrorExponent = 100.0;
+/// The largest exponent that the format mentions: that of white in an image without a factor.
+constexpr double kLargestExponent = 1000.0;
 /// Where a physically based material does not say how rough its surface or sheen is.
 constexpr double kUsualRoughness = 0.5;
 /// The reflectance of a dielectric with index 1.5 at normal incidence: (0.5 / 2.5)^2.
@@ -27,18 +31,12 @@ double largestOf(const glm::dvec3& colour) {
     return std::max({colour.x, colour.y, colour.z});
 }
 
-/// The roughness whose GGX lobe has the width of Phong's with exponent n: alpha = sqrt(2 / (n + 2)) (Walter
-/// et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", section 5.2), roughness =
-/// sqrt(alpha).
-double roughnessOf(double exponent) {
-    return std::pow(2.0 / (exponent + 2.0), 0.25);
-}
-
 class MtlMapper {
   public:
-    MtlMapper(const MtlValues& values, Material& material)
+    MtlMapper(const MtlValues& values, Material& material, MtlImages& images)
         : values_(values),
           material_(material),
+          images_(images),
           model_(static_cast<int>(std::lround(values.illumination.value_or(2.0)))),
           opacity_(values.dissolve ? *values.dissolve : 1.0 - values.transparency.value_or(0.0)) {}
 
@@ -48,10 +46,7 @@ class MtlMapper {
         const glm::vec3 radiance(factor(values_.emission, MtlImage::kEmission, glm::dvec3(0.0)));
         material_.emission = {radiance, radiance, Sides::kFront};
         setImage(MtlImage::kEmission, MaterialInput::kEmission);
-        if (values_.image(MtlImage::kNormal)) {
-            setImage(MtlImage::kNormal, MaterialInput::kNormal);
-            material_.normalScale = static_cast<float>(values_.image(MtlImage::kNormal)->scale);
-        }
+        mapNormal();
         if (isGlass()) {
             mapGlass();
         } else {
@@ -63,6 +58,7 @@ class MtlMapper {
             }
         }
         mapLayers();
+        if (hasImage(MtlImage::kExponent) && !usesExponents_) unused_.push_back("map_Ns");
         return std::move(unused_);
     }
 
@@ -74,9 +70,62 @@ class MtlMapper {
         return value && *value != T(0.0) ? *value : T(1.0);
     }
 
+    /// `conversion`: without base and gain.
+    void setImage(const MtlImageUse& use, MaterialInput input, std::uint32_t channel,
+                  ImageConversion conversion = {}) {
+        conversion.base = static_cast<float>(use.base);
+        conversion.gain = static_cast<float>(use.gain);
+        Texture texture = use.texture;
+        texture.image = images_.indexOf(use.texture.image, conversion);
+        setTexture(material_, {input, texture, channel});
+    }
     void setImage(MtlImage image, MaterialInput input) {
         const auto& use = values_.image(image);
-        if (use) setTexture(material_, {input, use->texture, use->channel});
+        if (use) setImage(*use, input, use->channel);
+    }
+
+    void mapNormal() {
+        const auto& normal = values_.image(MtlImage::kNormal);
+        const auto& bump = values_.image(MtlImage::kBump);
+        if (normal) {
+            setImage(*normal, MaterialInput::kNormal, 0);
+            if (bump) unused_.insert(unused_.end(), {"map_bump", "map_Bump", "bump", "Bump"});
+        } else if (bump) {
+            ImageConversion conversion{.kind = ImageConversion::Kind::kHeights};
+            conversion.channel = bump->hasChannel ? bump->channel : ImageConversion::kLuminance;
+            conversion.repeats = bump->texture.wrapU == Wrap::kRepeat;
+            setImage(*bump, MaterialInput::kNormal, 0, conversion);
+        }
+        const auto& used = normal ? normal : bump;
+        if (used) material_.normalScale = static_cast<float>(used->scale);
+    }
+
+    /// By Ns and its image, if there is no other image of roughness. `absent`: without either.
+    void setRoughness(double absent, double mirrorFrom) {
+        const auto& image = values_.image(MtlImage::kExponent);
+        if (!image) {
+            const double exponent = values_.exponent.value_or(0.0);
+            material_.roughness =
+                static_cast<float>(!values_.exponent        ? absent
+                                   : exponent >= mirrorFrom ? 0.0
+                                                            : roughnessOfExponent(exponent));
+            return;
+        }
+        usesExponents_ = true;
+        const double exponent = values_.exponent.value_or(0.0);
+        ImageConversion conversion{.kind = ImageConversion::Kind::kExponents};
+        conversion.channel = image->channel;
+        conversion.factor = static_cast<float>(exponent > 0.0 ? exponent : kLargestExponent);
+        conversion.mirrorFrom = static_cast<float>(mirrorFrom);
+        setImage(*image, MaterialInput::kRoughness, 0, conversion);
+        material_.roughness = 1.0f;
+    }
+
+    /// By Pr and its image; if there are none, by Ns.
+    void setPhysicalRoughness(double absent, double mirrorFrom) {
+        if (!values_.roughness && !hasImage(MtlImage::kRoughness)) return setRoughness(absent, mirrorFrom);
+        material_.roughness = static_cast<float>(factor(values_.roughness, MtlImage::kRoughness, 0.0));
+        setImage(MtlImage::kRoughness, MaterialInput::kRoughness);
     }
 
     bool hasImage(MtlImage image) const { return values_.image(image).has_value(); }
@@ -94,11 +143,6 @@ class MtlMapper {
         return refracts && !hasImage(MtlImage::kDissolve) && (opacity_ < kMtlOpaque || filters);
     }
 
-    double mirrorRoughness() const {
-        const double exponent = values_.exponent.value_or(kMirrorExponent);
-        return exponent < kMirrorExponent ? roughnessOf(exponent) : 0.0;
-    }
-
     void mapGlass() {
         removeTexture(material_, MaterialInput::kBaseColor);
         if (hasImage(MtlImage::kDiffuse)) unused_.push_back("map_Kd");
@@ -109,9 +153,7 @@ class MtlMapper {
         material_.transmission = material_.specular = 1.0f;
         material_.baseColor = glm::vec3(values_.filter.value_or(glm::dvec3(1.0)));
         material_.ior = static_cast<float>(values_.ior.value_or(1.5));
-        material_.roughness =
-            static_cast<float>(factor(values_.roughness, MtlImage::kRoughness, mirrorRoughness()));
-        setImage(MtlImage::kRoughness, MaterialInput::kRoughness);
+        setPhysicalRoughness(0.0, kMirrorExponent);
     }
 
     void mapCoverage() {
@@ -125,8 +167,7 @@ class MtlMapper {
         // The alpha of an image of colours, otherwise an image of its own.
         const auto& diffuse = values_.image(MtlImage::kDiffuse);
         const bool isAlpha = diffuse && diffuse->texture.image == image->texture.image;
-        setTexture(material_, {MaterialInput::kAlpha, image->texture,
-                               isAlpha && !image->hasChannel ? 3u : image->channel});
+        setImage(*image, MaterialInput::kAlpha, isAlpha && !image->hasChannel ? 3u : image->channel);
     }
 
     static bool isColoured(const glm::dvec3& colour) {
@@ -141,9 +182,7 @@ class MtlMapper {
         material_.specular = 1.0f;
         material_.metallic = static_cast<float>(factor(values_.metallic, MtlImage::kMetallic, 0.0));
         setImage(MtlImage::kMetallic, MaterialInput::kMetallic);
-        const double absent = values_.exponent ? roughnessOf(*values_.exponent) : kUsualRoughness;
-        material_.roughness = static_cast<float>(factor(values_.roughness, MtlImage::kRoughness, absent));
-        setImage(MtlImage::kRoughness, MaterialInput::kRoughness);
+        setPhysicalRoughness(kUsualRoughness, kNoMirror);
         // Ni 1 is the default that exporters write.
         if (values_.ior.value_or(1.0) > 1.0) material_.ior = static_cast<float>(*values_.ior);
         if (hasImage(MtlImage::kSpecular)) unused_.push_back("map_Ks");
@@ -162,8 +201,7 @@ class MtlMapper {
             if (hasImage(MtlImage::kSpecular)) unused_.push_back("map_Ks");
             return;
         }
-        material_.roughness =
-            static_cast<float>(isMirror ? mirrorRoughness() : roughnessOf(values_.exponent.value_or(0.0)));
+        setRoughness(isMirror ? 0.0 : roughnessOfExponent(0.0), isMirror ? kMirrorExponent : kNoMirror);
         const bool isBlack = values_.diffuse && largestOf(*values_.diffuse) <= kBlack;
         if (isLarge && isBlack && !hasImage(MtlImage::kDiffuse)) {
             material_.metallic = 1.0f;
@@ -195,17 +233,21 @@ class MtlMapper {
         }
     }
 
+    static constexpr double kNoMirror = std::numeric_limits<double>::infinity();
+
     const MtlValues& values_;
     Material& material_;
-    int model_;       ///< of illumination
-    double opacity_;  ///< 1 if the file does not say
+    MtlImages& images_;
+    bool usesExponents_ = false;  ///< of the image of Ns
+    int model_;                   ///< of illumination
+    double opacity_;              ///< 1 if the file does not say
     std::vector<std::string_view> unused_;
 };
 
 }  // namespace
 
-std::vector<std::string_view> mapMtl(const MtlValues& values, Material& material) {
-    return MtlMapper(values, material).run();
+std::vector<std::string_view> mapMtl(const MtlValues& values, Material& material, MtlImages& images) {
+    return MtlMapper(values, material, images).run();
 }
 
 }  // namespace duolux

@@ -20,10 +20,7 @@ constexpr std::string_view kNeutral[] = {"Ka", "sharpness", "map_aat"};
 struct ImageName {
     std::string_view keyword, other;
 };
-constexpr ImageName kUnusedImages[] = {
-    {"map_bump", "map_Bump"}, {"bump", "Bump"},     {"disp", "map_disp"},
-    {"decal", "map_decal"},   {"refl", "map_refl"},
-};
+constexpr ImageName kUnusedImages[] = {{"disp", "map_disp"}, {"decal", "map_decal"}, {"refl", "map_refl"}};
 
 /// The correct spelling of statements with an effect.
 constexpr std::string_view kSpellings[] = {"newmtl", "Kd", "Ke", "Ks", "map_Kd", "map_d"};

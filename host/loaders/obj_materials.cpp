@@ -143,11 +143,11 @@ void ObjMaterials::warnOfUndefined(Mesh& mesh, const std::vector<bool>& used) co
 }
 
 /// Adds the images of a material to the mesh; `indices` are those of the mesh's images.
-void ObjMaterials::moveImages(Entry& entry, std::map<fs::path, std::uint32_t>& indices, Mesh& mesh) {
+void ObjMaterials::moveImages(Entry& entry, ImageIndices& indices, Mesh& mesh) {
     for (MaterialTexture& use : entry.material.textures) {
         const ImageSource& image = entry.library->images[use.texture.image];
         const auto [index, isNew] =
-            indices.try_emplace(image.path, static_cast<std::uint32_t>(mesh.images.size()));
+            indices.try_emplace(image.identity(), static_cast<std::uint32_t>(mesh.images.size()));
         if (isNew) {
             mesh.images.push_back(image);
             mesh.files.push_back(image.path);
@@ -162,7 +162,7 @@ void ObjMaterials::moveTo(Mesh& mesh) {
     warnOfMissing(mesh);
     std::move(warnings_.begin(), warnings_.end(), std::back_inserter(mesh.warnings));
     warnOfUndefined(mesh, used);
-    std::map<fs::path, std::uint32_t> images;
+    ImageIndices images;
     std::vector<std::uint32_t> kept(entries_.size(), 0);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         Entry& entry = entries_[i];

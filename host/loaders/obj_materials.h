@@ -40,10 +40,13 @@ class ObjMaterials {
         const InputError* unusable = nullptr;
     };
 
+    /// Of the mesh's images, by ImageSource::identity().
+    using ImageIndices = std::map<decltype(std::declval<ImageSource>().identity()), std::uint32_t>;
+
     std::vector<std::filesystem::path> filesOf(std::string_view names);
     void noteMissing(std::string_view name);
     Entry entryFor(const std::string& name) const;
-    static void moveImages(Entry& entry, std::map<std::filesystem::path, std::uint32_t>& indices, Mesh& mesh);
+    static void moveImages(Entry& entry, ImageIndices& indices, Mesh& mesh);
     void warnOfMissing(Mesh& mesh);
     void warnOfUndefined(Mesh& mesh, const std::vector<bool>& used) const;
 

@@ -110,15 +110,13 @@ bool placeMesh(Mesh& mesh, const glm::dmat4& transform, const glm::dvec3& sceneO
 Composer::Composer(LoadedScene& scene) : scene_(scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         materials_.try_emplace(scene.materials[i], static_cast<std::uint32_t>(i));
-    for (std::size_t i = 0; i < scene.imageSources.size(); ++i) {
-        const ImageSource& image = scene.imageSources[i];
-        images_.try_emplace({image.path, image.bytes.get()}, static_cast<std::uint32_t>(i));
-    }
+    for (std::size_t i = 0; i < scene.imageSources.size(); ++i)
+        images_.try_emplace(scene.imageSources[i].identity(), static_cast<std::uint32_t>(i));
 }
 
 std::uint32_t Composer::indexOf(const ImageSource& image) {
     const auto next = static_cast<std::uint32_t>(scene_.imageSources.size());
-    const auto [entry, isNew] = images_.try_emplace({image.path, image.bytes.get()}, next);
+    const auto [entry, isNew] = images_.try_emplace(image.identity(), next);
     if (isNew) scene_.imageSources.push_back(image);
     return entry->second;
 }

@@ -39,8 +39,8 @@ class Composer {
   public:
     explicit Composer(LoadedScene& scene);
 
-    /// Adds the triangles, materials, images and point emitters of a mesh, whose origin must be the scene's; a
-    /// material or an image equal to one that the scene has is shared. Triangles without area are left out.
+    /// Adds the triangles, materials, images and point emitters of a mesh, whose origin must be the scene's;
+    /// a material or an image equal to one that the scene has is shared. Triangles without area are left out.
     /// Throws InputError if there would be too many triangles.
     void append(Mesh mesh);
 
@@ -62,7 +62,7 @@ class Composer {
 
     LoadedScene& scene_;
     std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;
-    std::map<std::pair<std::filesystem::path, const std::string*>, std::uint32_t> images_;
+    std::map<decltype(std::declval<ImageSource>().identity()), std::uint32_t> images_;
     std::map<std::filesystem::path, LeftOut> leftOut_;
 };
 

@@ -6,9 +6,11 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "host/base/named.h"
+#include "host/scene/image_conversion.h"
 
 namespace duolux {
 
@@ -26,9 +28,13 @@ struct ImageSource {
     std::string name;                          ///< as Image::name
     std::filesystem::path path;                ///< of the file; empty if `bytes` holds its content
     std::shared_ptr<const std::string> bytes;  ///< the content of an embedded file
+    ImageConversion conversion{};
 
-    /// Whether both are the same file or the same part of a file.
-    bool operator==(const ImageSource& other) const { return path == other.path && bytes == other.bytes; }
+    /// Equal for sources of the same image: the same file or part of a file, converted alike.
+    std::tuple<std::filesystem::path, const std::string*, ImageConversion> identity() const {
+        return {path, bytes.get(), conversion};
+    }
+    bool operator==(const ImageSource& other) const { return identity() == other.identity(); }
 };
 
 /// How the values of an image encode colours. Alpha is always linear.

@@ -188,6 +188,22 @@ TEST_F(GltfMaterialTest, TexturesHaveTheChannelsOfTheirSpecifications) {
 TEST_F(GltfMaterialTest, TexturesHaveSamplersAndTransforms) {
     GltfFile file =
         fileWith({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
+TEST_F(GltfMaterialTest, GlossinessInImagesBecomesRoughness) {
+    const json image{{"index", 1}};
+    const auto materialWith = [&](const json& extension) {
+        return mesh(fileWith(extensions("KHR_materials_pbrSpecularGlossiness", extension)));
+    };
+    const Mesh read = materialWith({{"glossinessFactor", 0.75}, {"specularGlossinessTexture", image}});
+    EXPECT_THAT(usesOf(read, read.materials[0]),
+                ElementsAre("roughness image1.png r", "specular_color image1.png srgb"));
+    EXPECT_EQ(read.materials[0].roughness, 1.0f);
+    const ImageConversion expected{.kind = ImageConversion::Kind::kGlossiness, .channel = 3, .factor = 0.75f};
+    ASSERT_EQ(read.images.size(), 2u);
+    EXPECT_EQ(read.images[read.materials[0].textures[0].texture.image].conversion, expected);
+    EXPECT_EQ(read.images[read.materials[0].textures[1].texture.image].conversion, ImageConversion());
+    EXPECT_THAT(read.warnings, IsEmpty());
+}
+
     file.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
     file.json["textures"][0]["sampler"] = 0;
     json& info = file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];

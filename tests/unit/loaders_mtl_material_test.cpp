@@ -176,6 +176,64 @@ TEST_F(MtlMaterialTest, ImagesOfEveryKind) {
     EXPECT_EQ(use(read("map_Pr -imfchan g a.png"), MaterialInput::kRoughness)->channel, 1u);
 }
 
+TEST_F(MtlMaterialTest, BumpMapsBecomeNormals) {
+    for (const char* const keyword : {"map_bump", "map_Bump", "bump", "Bump"}) {
+        const MaterialLibrary library = load(keyword + std::string(" -bm 0.25 -clamp on -imfchan g a.png\n"));
+        const Material& material = library.materials[0];
+        ASSERT_EQ(material.textures.size(), 1u) << keyword;
+        EXPECT_EQ(material.textures[0].input, MaterialInput::kNormal);
+        EXPECT_EQ(material.textures[0].texture.colourSpace, ColourSpace::kLinear);
+        EXPECT_EQ(material.textures[0].texture.wrapU, Wrap::kClamp);
+        EXPECT_EQ(material.normalScale, 0.25f);
+        ASSERT_EQ(library.images.size(), 1u);
+        const ImageConversion expected{
+            .kind = ImageConversion::Kind::kHeights, .channel = 1, .repeats = false};
+        EXPECT_EQ(library.images[0].conversion, expected);
+        EXPECT_THAT(library.warnings, IsEmpty());
+    }
+    const ImageConversion repeated{.kind = ImageConversion::Kind::kHeights,
+                                   .channel = ImageConversion::kLuminance};
+    EXPECT_EQ(load("bump a.png").images.at(0).conversion, repeated);
+    EXPECT_EQ(read("bump a.png").normalScale, 1.0f);
+    const MaterialLibrary both = load("bump a.png\nnorm -bm 0.5 b.png\n");
+    EXPECT_EQ(both.materials[0].normalScale, 0.5f);
+    EXPECT_EQ(both.images.at(both.materials[0].textures.at(0).texture.image).path, folder_ / "b.png");
+    EXPECT_THAT(both.warnings,
+                ElementsAre(HasSubstr("line 2: does not apply to the material: bump of 1 material")));
+    const MaterialLibrary twice = load("bump a.png\nmap_Kd a.png\n");
+    EXPECT_EQ(twice.images.size(), 2u) << "the colours and the normals";
+}
+
+TEST_F(MtlMaterialTest, ExponentsInImagesBecomeRoughness) {
+    const auto conversionOf = [&](const std::string& statements) {
+        const MaterialLibrary library = load(statements + "map_Ns a.png\n");
+        EXPECT_EQ(library.materials[0].roughness, 1.0f) << statements;
+        EXPECT_THAT(library.warnings, IsEmpty()) << statements;
+        return library.images.at(library.materials[0].textures.at(0).texture.image).conversion;
+    };
+    ImageConversion expected{.kind = ImageConversion::Kind::kExponents, .factor = 250.0f};
+    EXPECT_EQ(conversionOf("Ks 0.9 0.9 0.9\nNs 250\n"), expected);
+    EXPECT_EQ(conversionOf("Pm 1\nNs 250\n"), expected);
+    expected.mirrorFrom = 100.0f;
+    EXPECT_EQ(conversionOf("Ks 0.2 0.2 0.2\nNs 250\nillum 3\n"), expected);
+    EXPECT_EQ(conversionOf("d 0.5\nNs 250\nillum 4\n"), expected);
+    EXPECT_EQ(conversionOf("Ks 0.2 0.2 0.2\nNs 0\nillum 3\n").factor, 1000.0f);
+    for (const char* const statements : {"Kd 1 1 1\n", "Pr 0.5\n"}) {
+        EXPECT_THAT(load(statements + std::string("map_Ns a.png\n")).warnings,
+                    ElementsAre(HasSubstr("does not apply to the material: map_Ns of 1 material")));
+    }
+}
+
+TEST_F(MtlMaterialTest, BaseAndGainOfImages) {
+    const MaterialLibrary library = load("map_Kd -mm 0.25 0.5 a.png\nmap_d a.png\n");
+    ASSERT_EQ(library.images.size(), 2u);
+    const auto conversionOf = [&](MaterialInput input) {
+        return library.images.at(use(library.materials[0], input)->texture.image).conversion;
+    };
+    EXPECT_EQ(conversionOf(MaterialInput::kBaseColor), (ImageConversion{.base = 0.25f, .gain = 0.5f}));
+    EXPECT_EQ(conversionOf(MaterialInput::kAlpha), ImageConversion());
+}
+
 TEST_F(MtlMaterialTest, FactorsOfImages) {
     EXPECT_EQ(read("map_Kd a.png\n").baseColor, glm::vec3(1.0f));
     EXPECT_EQ(read("Kd 0 0 0\nmap_Kd a.png\n").baseColor, glm::vec3(1.0f)) << "as exporters write";

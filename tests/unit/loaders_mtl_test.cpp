@@ -145,16 +145,16 @@ TEST_F(MtlTest, ValuesThatAreWrongAreOneWarningAKind) {
 TEST_F(MtlTest, NamesWhatHasNoEffect) {
     write("a.png", "-");
     const MaterialLibrary library = load(
-        "newmtl leaf\nmap_bump a.png\nmap_Ns b.png\nKd 1 1 1\nnewmtl wall\nmap_Bump c.png\nTf 1 0 0\n"
-        "newmtl glass\nd -halo 0.5\nillum 9\nmap_Kd -t 1 1 -mm 0 2 a.png\n");
+        "newmtl leaf\ndisp a.png\nmap_refl b.png\nKd 1 1 1\nnewmtl wall\nmap_disp c.png\nTf 1 0 0\n"
+        "newmtl glass\nd -halo 0.5\nillum 9\nmap_Kd -t 1 1 -boost 2 a.png\n");
     EXPECT_THAT(
         library.warnings,
         ElementsAre(
-            HasSubstr("m.mtl: line 2: images of these kinds are not used: map_bump (2), map_Ns (1) of 2 "
+            HasSubstr("m.mtl: line 2: images of these kinds are not used: disp (2), refl (1) of 2 "
                       "materials have no effect"),
             HasSubstr("m.mtl: line 7: does not apply to the material: Tf (1), map_Kd (1) of 2 materials "
                       "have no effect"),
-            HasSubstr("m.mtl: line 9: options of images are not used: -halo (1), -t (1), -mm (1) of 1 "
+            HasSubstr("m.mtl: line 9: options of images are not used: -halo (1), -t (1), -boost (1) of 1 "
                       "material have no effect")));
 }
 

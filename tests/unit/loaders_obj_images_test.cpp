@@ -148,8 +148,12 @@ TEST_F(ObjImagesTest, OptionsOfImages) {
     EXPECT_EQ(readMtlMap("-clamp off wood.png").wrap, Wrap::kRepeat);
     EXPECT_EQ(readMtlMap("-wood.png").file, "-wood.png");
     EXPECT_EQ(readMtlMap("").file, "");
+    EXPECT_EQ(readMtlMap("-mm 0.25 2 wood.png").base, 0.25);
+    EXPECT_EQ(readMtlMap("-mm 0.25 2 wood.png").gain, 2.0);
+    EXPECT_EQ(readMtlMap("-mm 0.25 wood.png").gain, 1.0);
+    EXPECT_THAT(readMtlMap("-mm 0.5 2 wood.png").unused, IsEmpty());
     EXPECT_THAT(readMtlMap("-mm 0 1 -boost 0 -cc off -t 0 0 0 a.png").unused, IsEmpty()) << "without effect";
-    const MtlMap odd = readMtlMap("-mm 0.5 2 -new 3 -s x -o 1e9 -imfchan z a.png");
+    const MtlMap odd = readMtlMap("-mm 1e9 2 -new 3 -s x -o 1e9 -imfchan z a.png");
     EXPECT_THAT(odd.unused, ElementsAre("-mm", "-new", "-s"));
     EXPECT_EQ(odd.file, "x -o 1e9 -imfchan z a.png");
     EXPECT_THAT(readMtlMap("-o 1e9 -imfchan z a.png").unused, ElementsAre("-o", "-imfchan"));
