@@ -21,8 +21,9 @@ constexpr std::string_view kMagic = "glTF";
 constexpr const char* kVersionRemedy = "expected \"2.0\"";
 
 /// Extensions that are read, or that do not affect pictures of the default state.
-constexpr std::array<std::string_view, 20> kUnderstood{"EXT_mesh_gpu_instancing",
+constexpr std::array<std::string_view, 21> kUnderstood{"EXT_mesh_gpu_instancing",
                                                        "EXT_meshopt_compression",
+                                                       "FB_ngon_encoding",
                                                        "KHR_animation_pointer",
                                                        "KHR_draco_mesh_compression",
                                                        "KHR_lights_punctual",

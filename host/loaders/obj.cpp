@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -148,6 +149,18 @@ void takeUvs(std::vector<glm::vec2> uvs, Geometry& geometry) {
     geometry.uvs = std::move(uvs);
 }
 
+/// The colours of all vertices; empty if none has one.
+std::vector<glm::vec3> coloursOf(const ObjFile& file) {
+    std::vector<glm::vec3> colours;
+    for (const ObjPart& part : file.parts) {
+        if (part.colours.empty()) continue;
+        if (colours.empty()) colours.resize(file.rounded.positions.size(), glm::vec3(1.0f));
+        std::copy(part.colours.begin(), part.colours.end(),
+                  colours.begin() + static_cast<std::ptrdiff_t>(part.firstVertex));
+    }
+    return colours;
+}
+
 Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
     std::size_t triangles = 0;
     bool anyNormal = false, anyGroup = false, anyUv = false;
@@ -159,6 +172,7 @@ Geometry buildGeometry(ObjFile file, const std::vector<PartStart>& starts) {
             anyGroup = anyGroup || change.group != 0;
     }
     Geometry geometry;
+    geometry.colours = coloursOf(file);
     geometry.triangles.resize(triangles);
     geometry.materials.resize(triangles);
     if (anyNormal || anyGroup) geometry.normalIndices.assign(triangles, glm::uvec3(Geometry::kNoNormal));

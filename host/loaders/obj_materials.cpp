@@ -139,7 +139,9 @@ void ObjMaterials::warnOfUndefined(Mesh& mesh, const std::vector<bool>& used) co
     if (files_.reading() == Reading::kStrict) {
         throw InputError(mesh_.string(), "", what, "expected a newmtl of that name");
     }
-    mesh.warnings.push_back(fmt::format("{}: {}: grey 0.8 is used", mesh_.string(), what));
+    mesh.warnings.push_back(
+        fmt::format("{}: {}: {}", mesh_.string(), what,
+                    mesh.geometry.colours.empty() ? "grey 0.8 is used" : "the colours of vertices are used"));
 }
 
 /// Adds the images of a material to the mesh; `indices` are those of the mesh's images.
@@ -172,6 +174,8 @@ void ObjMaterials::moveTo(Mesh& mesh) {
         }
         if (entry.unusable != nullptr) throw InputError(*entry.unusable);
         moveImages(entry, images, mesh);
+        if (entry.library == nullptr && !mesh.geometry.colours.empty())
+            entry.material.baseColor = glm::vec3(1.0f);
         kept[i] = static_cast<std::uint32_t>(mesh.materials.size());
         mesh.materials.push_back(std::move(entry.material));
     }

@@ -156,6 +156,7 @@ ObjFile parseObj(const SourceText& text, Reading reading) {
             const Stretch& stretch = stretches[i];
             ObjPart& part = file.parts[i];
             part.offset = stretch.begin;
+            part.firstVertex = stretch.before.vertices;
             part.faceEnds.reserve(stretch.counts.faces);
             part.cornerVertices.reserve(3 * stretch.counts.faces);
             const ObjPartTarget target{positions, file.normals, file.uvs, stretch.before, total};

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "host/base/printable.h"
+#include "host/base/srgb.h"
 #include "host/loaders/obj_complaints.h"
 #include "host/loaders/obj_face.h"
 #include "host/loaders/obj_tokens.h"
@@ -92,11 +93,27 @@ class PartReader {
         } else if (numbers.count > kMost) {
             tolerateExtra(line, numbers.count, remedy);
         } else {
-            if (numbers.count >= kWithColour) complaints_.count(ObjOddity::kVertexColour, line);
             const bool hasWeight = numbers.count == kWithWeight || numbers.count == kMost;
+            if (numbers.count >= kWithColour) {
+                const auto& [fifth, sixth, seventh] = numbers.more;
+                addColour(line, hasWeight ? glm::dvec3(fifth, sixth, seventh)
+                                          : glm::dvec3(numbers.values.w, fifth, sixth));
+            }
             if (hasWeight && numbers.values.w != 1.0) complaints_.count(ObjOddity::kVertexWeight, line);
         }
         target_.positions[seen_.vertices++] = glm::dvec3(numbers.values);
+    }
+
+    /// `colour`: of the current vertex, encoded by the transfer function of sRGB.
+    void addColour(const char* line, const glm::dvec3& colour) {
+        const glm::dvec3 clamped = glm::clamp(colour, 0.0, 1.0);
+        if (clamped != colour) {
+            complaints_.tolerate(ObjOddity::kVertexColour, line, [&] {
+                complaints_.report(line, "a colour is not between 0 and 1", "expected \"v x y z r g b\"");
+            });
+        }
+        part_.colours.resize(seen_.vertices - part_.firstVertex, glm::vec3(1.0f));
+        part_.colours.emplace_back(srgbDecode(clamped.x), srgbDecode(clamped.y), srgbDecode(clamped.z));
     }
 
     void readTexture(const char* line, const char* arguments) {

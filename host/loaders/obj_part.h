@@ -31,11 +31,13 @@ struct ObjPart {
     };
 
     std::size_t offset = 0;                     ///< of the part's first byte in the file
+    std::size_t firstVertex = 0;                ///< of the part, in the file
     std::vector<std::uint32_t> faceEnds;        ///< per face: index past its last corner
     std::vector<std::uint32_t> cornerVertices;  ///< per corner, into the vertices of the file
     std::vector<std::uint32_t> cornerNormals;   ///< per corner, into the normals of the file or kNoNormal;
                                                 ///< may end early, at the last corner with one
     std::vector<std::uint32_t> cornerUvs;       ///< the same of texture coordinates; kNoUv
+    std::vector<glm::vec3> colours;  ///< per vertex of the part, linear; may end early: the rest is white
     std::vector<MaterialChange> materials;
     std::vector<BadVertex> badVertices;
     std::optional<TextProblem> badFace;  ///< the first face that is left out because of its vertices

@@ -29,7 +29,7 @@ constexpr OddityText<ObjOddity> kObjOddities[] = {
      "\"on\" is read as group 1, anything else as off"},
     {ObjOddity::kMaterialName, "usemtl without a name", "its faces are grey 0.8"},
     {ObjOddity::kLibraryName, "mtllib without a name", "ignored"},
-    {ObjOddity::kVertexColour, "a vertex with a colour", "vertex colours are not used"},
+    {ObjOddity::kVertexColour, "a vertex whose colour is not between 0 and 1", "clamped"},
     {ObjOddity::kVertexWeight, "a vertex with a weight w other than 1", "w is not used"},
 };
 

@@ -34,7 +34,11 @@ ObjNumbers readObjNumbers(const char* arguments, const char* end) {
             return numbers;
         }
         if (!std::isfinite(value)) note(numbers.notFinite, at);
-        if (numbers.count < 4) numbers.values[numbers.count] = value;
+        if (numbers.count < 4) {
+            numbers.values[numbers.count] = value;
+        } else if (numbers.count < 7) {
+            numbers.more[static_cast<std::size_t>(numbers.count - 4)] = value;
+        }
         ++numbers.count;
         at = past;
     }

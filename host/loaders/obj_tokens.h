@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <string_view>
 
@@ -25,6 +26,7 @@ std::string_view restOfLine(const char* at);
 /// The numbers of a statement. Errors after the third number are tolerated.
 struct ObjNumbers {
     glm::dvec4 values{0.0};           ///< the first ones
+    std::array<double, 3> more{};     ///< the fifth to the seventh
     int count = 0;                    ///< numbers before the first word that is not a number
     const char* notNumber = nullptr;  ///< the first word of the first three that is not a number
     const char* notFinite = nullptr;  ///< the first number of the first three that is not finite

@@ -186,13 +186,14 @@ TEST_F(LenientTest, CommentsMayFollowNumbersAtOnce) {
 TEST_F(LenientTest, WeightsOfVerticesAreNotUsed) {
     EXPECT_THAT(warningsOf("v 0 0 2 2\nv 0 0 2 1\nf 5 2 3\n"),
                 ElementsAre("mesh.obj: line 5: a vertex with a weight w other than 1: w is not used"));
-    EXPECT_THAT(warningsOf("v 0 0 2 0.5 1 1 1\nf 5 2 3\n").size(), 2u) << "and a colour";
+    EXPECT_THAT(warningsOf("v 0 0 2 0.5 1 1 1\nf 5 2 3\n").size(), 1u) << "with a colour";
 }
 
-TEST_F(LenientTest, VertexColoursAreNamedOnce) {
+TEST_F(LenientTest, ColoursOfVerticesBeyondTheirRangeAreClamped) {
     EXPECT_THAT(
-        withoutLight(textsOf(loadObj("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0.5 0\nf 1 2 3\n").warnings)),
-        ElementsAre("mesh.obj: line 1: a vertex with a colour (and 2 more): vertex colours are not used"));
+        withoutLight(
+            textsOf(loadObj("v 0 0 0 255 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 -0.5 0\nf 1 2 3\n").warnings)),
+        ElementsAre("mesh.obj: line 1: a vertex whose colour is not between 0 and 1 (and 1 more): clamped"));
 }
 
 TEST_F(LenientTest, ZeroBytesAtTheEndAndBackslashesInCommentsDoNotMatter) {

@@ -214,6 +214,37 @@ TEST_F(ObjTest, StrictReadingRefusesWhatDoesNotMatter) {
     EXPECT_THAT(error("s on"), HasSubstr("line 7: smoothing group \"on\"; expected a number or \"off\""));
 }
 
+TEST_F(ObjTest, ColoursOfVerticesScaleTheBaseColour) {
+    // 188 of 255 is 0.5029 in linear light: ((188 / 255 + 0.055) / 1.055)^2.4.
+    LoadedScene scene = loadObj("v 0 0 0 0.737254902 0 1\nv 1 0 0\nv 0 1 0 0.5 0 1 0.737254902\nf 1 2 3\n");
+    ASSERT_GE(scene.geometry.colours.size(), 3u);
+    EXPECT_THAT(scene.geometry.colours[0], IsNear(glm::vec3(0.50289f, 0, 1), 1e-4f));
+    EXPECT_EQ(scene.geometry.colours[1], glm::vec3(1)) << "has none";
+    EXPECT_THAT(scene.geometry.colours[2], IsNear(glm::vec3(0, 1, 0.50289f), 1e-4f)) << "after a weight";
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(1));
+    EXPECT_TRUE(loadObj(kTriangleObj).geometry.colours.empty());
+    write("m.mtl", "newmtl a\nKd 0.25 0.5 0.75\n");
+    scene = loadObj("mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n");
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(0.25f, 0.5f, 0.75f));
+    EXPECT_EQ(scene.materials[1].baseColor, glm::vec3(1));
+    EXPECT_THAT(scene.warnings[0].text,
+                HasSubstr("\"b\" is not defined by any MTL file: the colours of vertices are used"));
+}
+
+TEST_F(ObjTest, ColoursOfVerticesOfALongFile) {
+    // Several parts are read at once; the first vertices of each have no colours.
+    std::string text;
+    constexpr std::size_t kFaces = 120'000;
+    for (std::size_t i = 0; i < kFaces; ++i)
+        text += fmt::format("v {0} 0 0\nv {0} 1 0 {1} 0 1\nv {0} 0 1\nf -3 -2 -1\n", i, i % 2);
+    const Geometry geometry = load(text);
+    ASSERT_GE(geometry.colours.size(), 3 * kFaces);
+    for (std::size_t i = 0; i < kFaces; ++i) {
+        ASSERT_EQ(geometry.colours[3 * i], glm::vec3(1)) << i;
+        ASSERT_EQ(geometry.colours[3 * i + 1], glm::vec3(i % 2, 0, 1)) << i;
+    }
+}
+
 TEST_F(ObjTest, FilesWithoutFacesAreRefused) {
     EXPECT_THAT(errorOfObj(""), StartsWith("mesh.obj: has no faces"));
     EXPECT_THAT(errorOfObj("v 0 0 0\n"), StartsWith("mesh.obj: has no faces"));
