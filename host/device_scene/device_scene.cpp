@@ -38,6 +38,14 @@ Bounds widenedBounds(const Geometry& geometry, std::span<const std::uint32_t> tr
     return {bounds.lower - margin, bounds.upper + margin};
 }
 
+bool coloursScaleEmission(const Scene& scene) {
+    const std::vector<bool> used = usedMaterials(scene);
+    for (std::size_t i = 0; i < used.size() && !scene.geometry.colours.empty(); ++i) {
+        if (used[i] && scene.materials[i].unlit) return true;
+    }
+    return false;
+}
+
 /// What the host prepares of materials and emitters.
 struct MaterialsAndEmitters {
     std::vector<SceneEmitter> emitters;
@@ -73,8 +81,9 @@ struct MaterialsAndEmitters {
             materials[i].textureCount = lookups.ranges[i].count;
         }
         transport.textureGroups = lookups.groups;
+        if (coloursScaleEmission(scene)) transport.textureGroups |= 1u << shared::kGroupEmissionColour;
         // Neither emission nor normals vary over a surface.
-        if (transport.hasTextures(shared::kGroupEmission) || transport.hasTextures(shared::kGroupNormal))
+        if (transport.emissionIsScaled() || transport.hasTextures(shared::kGroupNormal))
             transport.closedFormApplies = false;
     }
 

@@ -58,11 +58,15 @@ struct LightTransport {
     std::uint32_t emitterKinds = 0;    ///< sum of shared::kEmitterKind...
     std::uint32_t emitterChoices = 0;  ///< as in EmitterTable
     double brightestEmission = 0.0;    ///< as duolux::brightestEmission
-    std::uint32_t textureGroups = 0;   ///< as TextureTable::groups
+    std::uint32_t textureGroups = 0;   ///< as TextureTable::groups, and shared::kGroupEmissionColour
 
     bool hasTextures(std::uint32_t group) const { return (textureGroups >> group & 1u) != 0; }
+    /// Images or colours of vertices scale the emission of some material.
+    bool emissionIsScaled() const {
+        return hasTextures(shared::kGroupEmission) || hasTextures(shared::kGroupEmissionColour);
+    }
     /// Emission may differ between the points of a triangle.
-    bool emissionVaries() const { return hasTextures(shared::kGroupEmission) || traits.coverage; }
+    bool emissionVaries() const { return emissionIsScaled() || traits.coverage; }
 };
 
 /// A scene in device memory.

@@ -39,8 +39,8 @@ std::vector<shared::DeviceMaterial> makeMaterialRecords(const Scene& scene) {
         // All fields by name: a further one does not compile until it is handled here.
         const auto& [name, baseColor, metallic, roughness, ior, specular, specularColor, transmission, thin,
                      attenuationColor, attenuationDistance, clearcoat, clearcoatRoughness, sheenColor,
-                     sheenRoughness, anisotropy, anisotropyRotation, alpha, normalScale, sides, emission,
-                     ownReflectance, textures] = material;
+                     sheenRoughness, anisotropy, anisotropyRotation, alpha, normalScale, clearcoatNormalScale,
+                     sides, emission, unlit, ownReflectance, textures] = material;
         static_cast<void>(std::tie(name, emission, ownReflectance));  // elsewhere, or resolved below
         shared::DeviceMaterial d{};
         d.baseColor = baseColor;
@@ -60,8 +60,10 @@ std::vector<shared::DeviceMaterial> makeMaterialRecords(const Scene& scene) {
         d.alpha = alpha.value;
         d.alphaCutoff = alpha.cutoff;
         d.normalScale = normalScale;
+        d.clearcoatNormalScale = clearcoatNormalScale;
         d.flags = (sides == Sides::kBoth ? shared::kMaterialTwoSided : 0u) |
-                  (thin ? shared::kMaterialThin : 0u) | flagOf(alpha.mode);
+                  (thin ? shared::kMaterialThin : 0u) | flagOf(alpha.mode) |
+                  (unlit ? shared::kMaterialUnlit : 0u);
         const Reflectance& reflectance = scene.reflectanceOf(material);
         storeMatrix(reflectance.opaque, d.opaque);
         storeMatrix(reflectance.transparent, d.transparent);

@@ -45,6 +45,8 @@ InputPlace placeOf(MaterialInput input) {
             return {shared::kGroupAnisotropy, 0, 3};
         case MaterialInput::kEmission:
             return {shared::kGroupEmission, 0, 3};
+        case MaterialInput::kClearcoatNormal:
+            return {shared::kGroupCoatNormal, 0, 3};
     }
     return {};
 }

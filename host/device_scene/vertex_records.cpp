@@ -158,7 +158,8 @@ VertexNeeds vertexNeeds(const Scene& scene) {
         for (const auto& [input, texture, channel] : material.textures) {
             static_cast<void>(channel);
             needs.records = true;
-            if (input == MaterialInput::kNormal) needs.tangents[i] = true;
+            if (input == MaterialInput::kNormal || input == MaterialInput::kClearcoatNormal)
+                needs.tangents[i] = true;
             if (texture.uvSet == 1 && !geometry.secondUvs.empty()) needs.secondUvs = true;
         }
         if (needs.tangents[i]) needs.records = true;

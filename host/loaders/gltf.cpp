@@ -162,8 +162,6 @@ class GltfLoader {
         }
         const JsonNode& node = document_.list("materials")[*index];
         if (isNew) mesh_.materials.push_back(readGltfMaterial(node, *index, textures_, notes_));
-        if (!primitive.colours.empty() && extensionOf(node, "KHR_materials_unlit"))
-            notes_.ignore(node, "colours of vertices of an unlit surface are not supported", "ignored");
         return entry->second;
     }
 

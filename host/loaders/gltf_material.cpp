@@ -34,7 +34,7 @@ class GltfMaterialReader {
         const auto old = extensionOf(node_, "KHR_materials_pbrSpecularGlossiness");
         if (old) readSpecularGlossiness(*old);
         if (const auto pbr = node_.find("pbrMetallicRoughness"); pbr && !old) readPbr(*pbr);
-        readNormal();
+        normalTexture(node_, "normalTexture", MaterialInput::kNormal, material_.normalScale);
         readEmission();
         readDielectric();
         readVolume();
@@ -134,14 +134,12 @@ class GltfMaterialReader {
         if (hasTexture(material_, MaterialInput::kRoughness)) material_.roughness = 1.0f;
     }
 
-    void readNormal() {
-        const auto info = node_.find("normalTexture");
+    void normalTexture(const JsonNode& node, const char* key, MaterialInput input, float& field) {
+        const auto info = node.find(key);
         if (!info) return;
-        texture(node_, "normalTexture", MaterialInput::kNormal);
-        if (const auto scale = info->find("scale")) {
-            material_.normalScale =
-                static_cast<float>(clamped(*scale, -kLargestFactor, kLargestFactor, "expected a number"));
-        }
+        texture(node, key, input);
+        if (const auto scale = info->find("scale"))
+            field = static_cast<float>(clamped(*scale, -kLargestFactor, kLargestFactor, "expected a number"));
     }
 
     void readEmission() {
@@ -209,8 +207,8 @@ class GltfMaterialReader {
             fraction(*coat, "clearcoatRoughnessFactor", material_.clearcoatRoughness);
             texture(*coat, "clearcoatTexture", MaterialInput::kClearcoat, kRed);
             texture(*coat, "clearcoatRoughnessTexture", MaterialInput::kClearcoatRoughness, kGreen);
-            if (const auto normals = coat->find("clearcoatNormalTexture"))
-                notes_.ignore(*normals, "normals of a clear coat are not supported", "the coat is smooth");
+            normalTexture(*coat, "clearcoatNormalTexture", MaterialInput::kClearcoatNormal,
+                          material_.clearcoatNormalScale);
         }
         if (const auto sheen = extensionOf(node_, "KHR_materials_sheen")) {
             colour(*sheen, "sheenColorFactor", 1.0, material_.sheenColor);
@@ -238,6 +236,7 @@ class GltfMaterialReader {
         unlit.metallic = 0.0f;
         unlit.specular = 0.0f;
         unlit.emission = {glm::vec3(0.0f), material_.baseColor, Sides::kBoth};
+        unlit.unlit = true;
         for (MaterialTexture texture : material_.textures) {
             if (texture.input == MaterialInput::kBaseColor)
                 texture.input = MaterialInput::kEmission;

@@ -80,24 +80,22 @@ class JsonMaterialReader {
     }
 
     /// {"image": FILE, "scale": number}; the scale alone is that of the image in the mesh file.
-    void normal() const {
-        const auto value = node_.find("normal");
+    void normal(const char* key, MaterialInput input, float& field) const {
+        const auto value = node_.find(key);
         if (!value) return;
         const char* const remedy = R"(expected {"image": file, "scale": number})";
         if (!value->isObject() || !(value->find("image") || value->find("scale"))) value->failValue(remedy);
         if (value->find("image")) {
-            material_.normalScale = 1.0f;
-            setTexture(material_, {MaterialInput::kNormal,
-                                   readTexture(*value, ColourSpace::kLinear, images_, {"scale"}), 0});
+            field = 1.0f;
+            setTexture(material_, {input, readTexture(*value, ColourSpace::kLinear, images_, {"scale"}), 0});
         } else {
             value->expectKeys({"image", "scale"});
-            if (findTexture(material_, MaterialInput::kNormal) == nullptr)
+            if (findTexture(material_, input) == nullptr)
                 value->fail("scales an image that the material does not have", remedy);
         }
         JsonMaterialReader(*value, material_, images_)
             .number("scale", -kLargestScale, kLargestScale,
-                    fmt::format("expected a number of at most {:g} in magnitude", kLargestScale),
-                    material_.normalScale);
+                    fmt::format("expected a number of at most {:g} in magnitude", kLargestScale), field);
     }
 
     void alpha() const {
@@ -184,6 +182,7 @@ void readMaterial(const JsonNode& node, Material& material, JsonImages& images) 
                      "attenuation_distance",
                      "base_color",
                      "clearcoat",
+                     "clearcoat_normal",
                      "clearcoat_roughness",
                      "diffuse",
                      "emission",
@@ -198,7 +197,8 @@ void readMaterial(const JsonNode& node, Material& material, JsonImages& images) 
                      "specular",
                      "specular_color",
                      "thin",
-                     "transmission"});
+                     "transmission",
+                     "unlit"});
     const JsonMaterialReader reader(node, material, images);
     const auto baseColor = node.find("base_color"), diffuse = node.find("diffuse");
     if (baseColor && diffuse) diffuse->fail("is another name of base_color", "expected one of the two");
@@ -234,9 +234,11 @@ void readMaterial(const JsonNode& node, Material& material, JsonImages& images) 
     reader.fraction("anisotropy", MaterialInput::kAnisotropy, material.anisotropy);
     reader.number("anisotropy_rotation", -kLargestTurn, kLargestTurn, "expected an angle in degrees",
                   material.anisotropyRotation);
-    reader.normal();
+    reader.normal("normal", MaterialInput::kNormal, material.normalScale);
+    reader.normal("clearcoat_normal", MaterialInput::kClearcoatNormal, material.clearcoatNormalScale);
     reader.alpha();
     reader.emission();
+    if (const auto unlit = node.find("unlit")) material.unlit = unlit->boolean();
     if (const auto reflectance = node.find("reflectance"))
         material.reflectance = readReflectance(*reflectance);
     if (const auto sides = node.find("sides")) material.sides = sides->choice<Sides>();

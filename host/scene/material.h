@@ -51,7 +51,8 @@ struct Alpha {
     bool operator==(const Alpha&) const = default;
 };
 
-/// What an image may scale. kNormal has no number of its own: it bends the shading normal.
+/// What an image may scale. Normals have no numbers of their own: they bend the shading normal, of the
+/// clearcoat or of what is below it.
 enum class MaterialInput : std::uint8_t {
     kBaseColor,
     kAlpha,
@@ -66,7 +67,8 @@ enum class MaterialInput : std::uint8_t {
     kSheenRoughness,
     kAnisotropy,  ///< red and green: direction in tangent space, blue: strength
     kNormal,
-    kEmission
+    kEmission,
+    kClearcoatNormal
 };
 
 /// "base_color", "alpha" ..., as in scene files.
@@ -77,7 +79,7 @@ inline constexpr std::array kValuesOf<MaterialInput>{
     MaterialInput::kRoughness,    MaterialInput::kSpecular,       MaterialInput::kSpecularColor,
     MaterialInput::kTransmission, MaterialInput::kClearcoat,      MaterialInput::kClearcoatRoughness,
     MaterialInput::kSheenColor,   MaterialInput::kSheenRoughness, MaterialInput::kAnisotropy,
-    MaterialInput::kNormal,       MaterialInput::kEmission};
+    MaterialInput::kNormal,       MaterialInput::kEmission,       MaterialInput::kClearcoatNormal};
 
 struct MaterialTexture {
     MaterialInput input = MaterialInput::kBaseColor;
@@ -108,9 +110,11 @@ struct Material {
     float anisotropy = 0.0f;          ///< fraction: stretches reflections along the tangent
     float anisotropyRotation = 0.0f;  ///< degrees, counter-clockwise from the tangent
     Alpha alpha;
-    float normalScale = 1.0f;    ///< of the x and y of normals in the image
+    float normalScale = 1.0f;           ///< of the x and y of normals in the image
+    float clearcoatNormalScale = 1.0f;  ///< the same of those of the clearcoat
     Sides sides = Sides::kBoth;  ///< kFront: f_opaque acts only on the side the winding makes the front
     Emission emission;
+    bool unlit = false;                      ///< colours of vertices scale the emission, too
     std::optional<Reflectance> reflectance;  ///< overrides the scene's reflectance if set
     std::vector<MaterialTexture> textures;   ///< at most one per input, ascending
 
@@ -136,8 +140,8 @@ template <typename Visit>
 void forEachField(const Material& material, Visit&& visit) {
     const auto& [name, baseColor, metallic, roughness, ior, specular, specularColor, transmission, thin,
                  attenuationColor, attenuationDistance, clearcoat, clearcoatRoughness, sheenColor,
-                 sheenRoughness, anisotropy, anisotropyRotation, alpha, normalScale, sides, emission,
-                 reflectance, textures] = material;
+                 sheenRoughness, anisotropy, anisotropyRotation, alpha, normalScale, clearcoatNormalScale,
+                 sides, emission, unlit, reflectance, textures] = material;
     static_cast<void>(name);
     visit("base_color", baseColor);
     visit("metallic", metallic);
@@ -157,8 +161,10 @@ void forEachField(const Material& material, Visit&& visit) {
     visit("anisotropy_rotation", anisotropyRotation);
     visit("alpha", alpha);
     visit("normal", normalScale);
+    visit("clearcoat_normal", clearcoatNormalScale);
     visit("sides", sides);
     visit("emission", emission);
+    visit("unlit", unlit);
     visit("reflectance", reflectance);
     visit("textures", textures);
 }

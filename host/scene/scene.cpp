@@ -59,6 +59,8 @@ const char* nameOf(MaterialInput input) {
             return "normal";
         case MaterialInput::kEmission:
             return "emission";
+        case MaterialInput::kClearcoatNormal:
+            return "clearcoat_normal";
     }
     return "";
 }
@@ -118,13 +120,13 @@ const char* nameOf(Integrator integrator) {
 bool isPlainDiffuse(const Material& material) {
     const auto& [name, baseColor, metallic, roughness, ior, specular, specularColor, transmission, thin,
                  attenuationColor, attenuationDistance, clearcoat, clearcoatRoughness, sheenColor,
-                 sheenRoughness, anisotropy, anisotropyRotation, alpha, normalScale, sides, emission,
-                 reflectance, textures] = material;
-    static_cast<void>(std::tie(name, baseColor, sides, emission, reflectance));
+                 sheenRoughness, anisotropy, anisotropyRotation, alpha, normalScale, clearcoatNormalScale,
+                 sides, emission, unlit, reflectance, textures] = material;
+    static_cast<void>(std::tie(name, baseColor, sides, emission, unlit, reflectance));
     // Properties of lobes that are absent, and of images.
     static_cast<void>(std::tie(roughness, ior, specularColor, thin, attenuationColor, attenuationDistance,
                                clearcoatRoughness, sheenRoughness, anisotropy, anisotropyRotation,
-                               normalScale));
+                               normalScale, clearcoatNormalScale));
     return metallic == 0.0f && specular == 0.0f && transmission == 0.0f && clearcoat == 0.0f &&
            sheenColor == glm::vec3(0.0f) && alpha.mode == AlphaMode::kOpaque && textures.empty();
 }

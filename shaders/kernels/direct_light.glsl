@@ -25,7 +25,7 @@ void collectEmission(inout SampleRadiance received, Path path, SurfaceHit hit, R
     if (kDirectLight == kDirectLightClosedForm) misWeight = path.scatterings > 0u ? 0.0 : 1.0;
     // Without a branch on whether the triangle emits, which makes `global` 8 % slower on lavapipe.
     Radiance2 emission = emissionOn(emitter, hit.front);
-    if (isTextured(kGroupEmission)) emission = scaled(emission, hit.emissionTexel);
+    if (isEmissionScaled()) emission = scaled(emission, hit.emissionTexel);
     Radiance2 collected = matrixApply(w, emission);
     addRadiance(received, scaled(collected, vec3(misWeight)), path.scatterings);
 }

@@ -86,8 +86,16 @@ ReflectanceMatrix transparentAt(uint material, float coverage) {
     return ReflectanceMatrix(m.m00 * coverage + rest, m.m01 * coverage, m.m10 * coverage, m.m11 * coverage + rest);
 }
 
+// What colours of vertices make of the emission of a material with these flags.
+vec3 emissionColour(uint flags, vec3 colour) {
+    return isTextured(kGroupEmissionColour) && (flags & kMaterialUnlit) != 0u ? colour : vec3(1.0);
+}
+
 vec3 emissionTexel(uint triangle, vec2 barycentric) {
     uint material = fetchTriangle(triangle).materialFlags & kMaterialMask;
     vec3 texel = texturesAt(triangle, material, 1u << kGroupEmission, barycentric).emission.xyz;
+    if (isTextured(kGroupEmissionColour)) {
+        texel *= emissionColour(fetchMaterial(material).flags, vertexColour(triangle, barycentric));
+    }
     return texel * coverageAt(triangle, material, barycentric);
 }

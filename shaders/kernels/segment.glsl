@@ -71,8 +71,10 @@ SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewe
     hit.cosine = dot(normal, segment.direction);
     hit.front = hit.cosine < 0.0;
     hit.material = fetchMaterial(hit.materialIndex);
+    vec3 colour = vec3(1.0);
     if (kVertexColours) {
-        hit.material.baseColor *= vertexColour(ray.triangle, ray.barycentric);
+        colour = vertexColour(ray.triangle, ray.barycentric);
+        hit.material.baseColor *= colour;
         if (kCoverage) hit.material.alpha *= vertexAlpha(ray.triangle, ray.barycentric);
     }
     TextureValues values = noTextures();
@@ -80,7 +82,7 @@ SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewe
         values = texturesAt(ray.triangle, hit.materialIndex, kTextureGroups, ray.barycentric);
         applyTextures(hit.material, values);
     }
-    hit.emissionTexel = values.emission.xyz;
+    hit.emissionTexel = values.emission.xyz * emissionColour(hit.material.flags, colour);
     hit.bsdf = bsdfOf(hit.material, hit.front);
     hit.coverage = kCoverage ? coverageOf(hit.material) : 1.0;
     hit.transmittance = vec3(1.0);
@@ -93,6 +95,7 @@ SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewe
     // The segment starts at a surface in the same plane, or has crossed one there.
     bool behindOthers = kPlanes && segment.order != kNoTriangle && segment.t == ray.t;
     hit.point = surfacePoint(tri, ray.triangle, ray.barycentric, normal, segment.direction, kSmoothNormals);
+    if (hasCoatNormals()) hit.bsdf.coatNormal = hit.point.shadingNormal;
     if (isTextured(kGroupNormal) && kVertexRecords) {
         // A loop, because only loops skip what no lane needs. Without a normal map, and where that is flat, the normal
         // stays as it is.
@@ -101,6 +104,14 @@ SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewe
             TangentFrame frame = tangentFrameAt(tri, ray.triangle, ray.barycentric, normal);
             hit.point.shadingNormal = normalMapped(values.normal.xyz, fetchNormalScale(hit.materialIndex), frame,
                                                    hit.point.geometricNormal, viewer);
+        }
+    }
+    if (hasCoatNormals() && isTextured(kGroupCoatNormal) && kVertexRecords) {
+        uint mapped = values.coatNormal.xyz == noTextures().coatNormal.xyz ? 0u : 1u;
+        for (uint i = 0u; i < mapped; i++) {
+            TangentFrame frame = tangentFrameAt(tri, ray.triangle, ray.barycentric, normal);
+            hit.bsdf.coatNormal = normalMapped(values.coatNormal.xyz, fetchCoatNormalScale(hit.materialIndex), frame,
+                                               hit.point.geometricNormal, viewer);
         }
     }
     if (kAnisotropic) {
@@ -145,7 +156,8 @@ bool survives(uvec2 stream, uint scatterings, uint crossings, float weight, out 
 // Without smooth normals a vertex need not keep both normals.
 BsdfFrame frameOf(SurfacePoint point, Bsdf bsdf) {
     bool bent = kSmoothNormals || isTextured(kGroupNormal);
-    return BsdfFrame(bent ? point.shadingNormal : point.geometricNormal, point.geometricNormal, bsdf.tangent);
+    return BsdfFrame(bent ? point.shadingNormal : point.geometricNormal, point.geometricNormal, bsdf.tangent,
+                     bsdf.coatNormal);
 }
 
 // A ray that leaves a point at which the BSDF scatters.

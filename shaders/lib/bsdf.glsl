@@ -27,12 +27,28 @@ float metalFraction(Bsdf bsdf) { return kMetal ? bsdf.metallic : 0.0; }
 float glassFraction(Bsdf bsdf) { return kGlass ? (1.0 - metalFraction(bsdf)) * bsdf.transmission : 0.0; }
 float diffuseFraction(Bsdf bsdf) { return 1.0 - metalFraction(bsdf) - glassFraction(bsdf); }
 
-// What the layers on the base let through to a view on the outside, whose cosine is given.
-float throughLayers(Bsdf bsdf, float cosine) {
+// What the layers on the base let through to a view on the outside, whose cosines to the shading normal and to that of
+// the clearcoat are given.
+float throughLayers(Bsdf bsdf, float cosine, float toCoat) {
     float through = 1.0;
     if (kSheen) through *= 1.0 - sheenAlbedo(bsdf, cosine);
-    if (kClearcoat) through *= 1.0 - clearcoatAlbedo(bsdf, cosine);
+    if (kClearcoat) through *= 1.0 - clearcoatAlbedo(bsdf, toCoat);
     return through;
+}
+
+// f of the base under the clearcoat. `o`, `i`: local directions. The clearcoat reflects by the cosine of the incident
+// light to its own normal, but f goes with that to the shading normal.
+vec3 coated(vec3 base, Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, vec3 o, vec3 i, uint mode) {
+    vec3 coatO = toCoatFrame(frame, wo, o);
+    vec3 coatI = toCoatFrame(frame, wi, i);
+    float above = 1.0;
+    if (hasCoatNormals()) {
+        above = max(incidentOf(coatO, coatI, mode).z, 0.0) / incidentOf(o, i, mode).z;
+        coatO = aboveHorizon(coatO);
+        coatI = aboveHorizon(coatI);
+    }
+    return base * (1.0 - clearcoatAlbedo(bsdf, viewOf(coatO, coatI, mode).z)) +
+           clearcoatEvaluate(bsdf, coatO, coatI) * above;
 }
 
 // f of the base on the side of wo. Directions in the frame of the shading normal, above its horizon.
@@ -92,7 +108,7 @@ vec3 bsdfEvaluate(Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
         f = baseEvaluate(bsdf, o, i);
         if (isOutside(bsdf)) {
             float view = viewOf(o, i, mode).z;
-            if (kClearcoat) f = f * (1.0 - clearcoatAlbedo(bsdf, view)) + clearcoatEvaluate(bsdf, o, i);
+            if (kClearcoat) f = coated(f, bsdf, frame, wo, wi, o, i, mode);
             if (kSheen) f = f * (1.0 - sheenAlbedo(bsdf, view)) + sheenEvaluate(bsdf, o, i);
         }
     }
@@ -101,7 +117,8 @@ vec3 bsdfEvaluate(Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
         f = throughEvaluate(bsdf, o, i);
         if (mode == kModeImportance) f *= indexRatio(bsdf);
         bool viewOutside = isOutside(bsdf) == (mode == kModeRadiance);
-        if (viewOutside) f *= throughLayers(bsdf, abs(viewOf(o, i, mode).z));
+        float view = abs(viewOf(o, i, mode).z);
+        if (viewOutside) f *= throughLayers(bsdf, view, coatCosine(frame, viewOf(wo, wi, mode), view));
     }
     return f;
 }
@@ -116,8 +133,9 @@ struct Strategies {
     float refracted;  // of `facets`: the fraction that is glass, refracted with the probability 1 - Fresnel reflectance
 };
 
-// In proportion to what each scatters, in its largest channel. `cosine`: of wo to the shading normal.
-Strategies bsdfStrategies(Bsdf bsdf, float cosine, uint mode) {
+// In proportion to what each scatters, in its largest channel. `cosine`, `toCoat`: of wo to the shading normal and to
+// that of the clearcoat.
+Strategies bsdfStrategies(Bsdf bsdf, float cosine, float toCoat, uint mode) {
     float c = max(cosine, 1e-3);
     bool smoothFacets = isSmooth(bsdf);
     vec2 single = reflectionAlbedo(c, bsdf.roughness);
@@ -155,7 +173,7 @@ Strategies bsdfStrategies(Bsdf bsdf, float cosine, uint mode) {
     float sheen = 0.0;
     float coat = 0.0;
     if (kSheen && isOutside(bsdf)) sheen = sheenAlbedo(bsdf, c);
-    if (kClearcoat && isOutside(bsdf)) coat = (1.0 - sheen) * clearcoatAlbedo(bsdf, c);
+    if (kClearcoat && isOutside(bsdf)) coat = (1.0 - sheen) * clearcoatAlbedo(bsdf, max(toCoat, 1e-3));
     float base = 1.0 - sheen - coat;
     s.cosine = base * spread;
     s.sheen = sheen;
@@ -180,7 +198,7 @@ Strategies bsdfStrategies(Bsdf bsdf, float cosine, uint mode) {
 }
 
 // Density of all strategies that are not deltas. Local directions: `o` above the horizon.
-float strategiesPdf(Strategies s, Bsdf bsdf, BsdfFrame frame, vec3 o, vec3 wi, vec3 i, uint mode) {
+float strategiesPdf(Strategies s, Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 o, vec3 wi, vec3 i, uint mode) {
     // Where the two normals see wi on different sides, samples are discarded.
     bool above = dot(frame.geometric, wi) > 0.0;
     float pdf = above ? s.cosine * diffusePdf(normalOfMode(frame, mode), wi) : 0.0;
@@ -191,7 +209,11 @@ float strategiesPdf(Strategies s, Bsdf bsdf, BsdfFrame frame, vec3 o, vec3 wi, v
             pdf += s.facets * reflected * ggxPdf(bsdf.alpha, o, i);
         }
         if (kSheen) pdf += s.sheen * (0.5 / kPi);
-        if (kClearcoat && !isSmoothClearcoat(bsdf)) pdf += s.clearcoat * ggxPdf(clearcoatAlpha(bsdf), o, i);
+        if (kClearcoat && !isSmoothClearcoat(bsdf)) {
+            vec3 coatO = toCoatFrame(frame, wo, o);
+            if (hasCoatNormals()) coatO = aboveHorizon(coatO);
+            pdf += s.clearcoat * ggxPdf(clearcoatAlpha(bsdf), coatO, toCoatFrame(frame, wi, i));
+        }
     } else if (kTransmits && !above && i.z < 0.0) {
         pdf += s.through * -i.z * (1.0 / kPi);
         if (!isSmooth(bsdf)) {
@@ -207,12 +229,13 @@ float strategiesPdf(Strategies s, Bsdf bsdf, BsdfFrame frame, vec3 o, vec3 wi, v
 float bsdfPdf(Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
     if (kOnlyDiffuse) return diffusePdf(normalOfMode(frame, mode), wi);
     vec3 o = toShadingFrame(frame, wo);
-    Strategies s = bsdfStrategies(bsdf, o.z, mode);
-    return strategiesPdf(s, bsdf, frame, aboveHorizon(o), wi, toShadingFrame(frame, wi), mode);
+    Strategies s = bsdfStrategies(bsdf, o.z, coatCosine(frame, wo, o.z), mode);
+    return strategiesPdf(s, bsdf, frame, wo, aboveHorizon(o), wi, toShadingFrame(frame, wi), mode);
 }
 
-// f |cos| / pdf for a smooth surface, without the probability of its strategy. `o`, `i`: local directions.
-vec3 smoothWeight(Bsdf bsdf, Strategies s, vec3 o, vec3 i, bool refraction, uint mode) {
+// f |cos| / pdf for a smooth surface, without the probability of its strategy. `o`, `i`: local directions; `toCoat`:
+// the cosine of the view to the normal of the clearcoat.
+vec3 smoothWeight(Bsdf bsdf, Strategies s, vec3 o, vec3 i, float toCoat, bool refraction, uint mode) {
     vec3 weight = vec3(0.0);
     float fresnel = dielectricFresnel(o.z, bsdf.eta);
     if (refraction) {
@@ -228,7 +251,7 @@ vec3 smoothWeight(Bsdf bsdf, Strategies s, vec3 o, vec3 i, bool refraction, uint
         }
     }
     bool viewOutside = isOutside(bsdf) == (mode == kModeRadiance || !refraction);
-    if (viewOutside) weight *= throughLayers(bsdf, abs(viewOf(o, i, mode).z));
+    if (viewOutside) weight *= throughLayers(bsdf, abs(viewOf(o, i, mode).z), toCoat);
     return weight;
 }
 
@@ -238,7 +261,7 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
     if (!kOnlyDiffuse) {
         vec3 local = toShadingFrame(frame, wo);
         vec3 o = aboveHorizon(local);
-        Strategies strategies = bsdfStrategies(bsdf, local.z, mode);
+        Strategies strategies = bsdfStrategies(bsdf, local.z, coatCosine(frame, wo, local.z), mode);
         bool fromSheen = kSheen && choice >= strategies.cosine && choice < strategies.cosine + strategies.sheen;
         float rest = choice - strategies.cosine - strategies.sheen;
         bool fromFacets = rest >= 0.0 && (rest < strategies.facets || strategies.clearcoat + strategies.through <= 0.0);
@@ -249,16 +272,19 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
         bool deltaFacets = fromFacets && isSmooth(bsdf);
         bool deltaCoat = fromCoat && isSmoothClearcoat(bsdf);
         vec3 i = vec3(0.0, 0.0, 1.0);
+        bool bentCoat = hasCoatNormals() && fromCoat;
         if (fromFacets || fromCoat) {
             vec3 h = vec3(0.0, 0.0, 1.0);
-            if (!deltaFacets && !deltaCoat) h = ggxNormal(fromCoat ? clearcoatAlpha(bsdf) : bsdf.alpha, o, u);
-            i = mirrored(o, h);
+            vec3 from = o;
+            if (bentCoat) from = aboveHorizon(toFrame(frame.coat, wo));
+            if (!deltaFacets && !deltaCoat) h = ggxNormal(fromCoat ? clearcoatAlpha(bsdf) : bsdf.alpha, from, u);
+            i = mirrored(from, h);
             if (kGlass && fromFacets) {
                 float passed = strategies.refracted * (1.0 - dielectricFresnel(dot(o, h), bsdf.eta));
                 refraction = rest < passed * strategies.facets;
                 if (refraction) i = isThin(bsdf) ? otherSide(i) : refracted(o, h, bsdf.eta);
             }
-            s.wi = fromShadingFrame(frame, i);
+            s.wi = bentCoat ? fromFrame(frame.coat, i) : fromShadingFrame(frame, i);
         }
         if (fromSheen) s.wi = fromShadingFrame(frame, uniformHemisphere(u));
         if (fromThrough) {
@@ -268,26 +294,31 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
         float cosine = bsdfCosine(frame, s.wi, mode);
         if (deltaFacets || deltaCoat) {
             // f is a delta distribution over the cosine to the shading normal.
-            float ratio = cosine / max(abs(dot(frame.shading, s.wi)), 1e-30);
+            vec3 incident = bentCoat ? incidentOf(wo, s.wi, mode) : s.wi;
+            float ratio = cosine / max(abs(dot(frame.shading, incident)), 1e-30);
             float probability = deltaCoat ? strategies.clearcoat : strategies.facets;
             vec3 weight = vec3(0.0);
-            if (deltaFacets) weight = smoothWeight(bsdf, strategies, o, i, refraction, mode);
+            if (deltaFacets) {
+                float toCoat = coatCosine(frame, viewOf(wo, s.wi, mode), abs(viewOf(o, i, mode).z));
+                weight = smoothWeight(bsdf, strategies, o, i, toCoat, refraction, mode);
+            }
             if (deltaCoat) {
-                weight = vec3(clearcoatReflectance(bsdf, o.z));
+                weight = vec3(clearcoatReflectance(bsdf, bentCoat ? i.z : o.z));
+                if (bentCoat && dot(frame.coat, incident) <= 0.0) weight = vec3(0.0);
                 if (kSheen) weight *= 1.0 - sheenAlbedo(bsdf, o.z);
             }
             s.weight = weight * (ratio / probability);
             s.pdf = kDeltaPdf;
         } else {
             vec3 inFrame = toShadingFrame(frame, s.wi);
-            s.pdf = strategiesPdf(strategies, bsdf, frame, o, s.wi, inFrame, mode);
+            s.pdf = strategiesPdf(strategies, bsdf, frame, wo, o, s.wi, inFrame, mode);
             s.weight = bsdfEvaluate(bsdf, frame, wo, s.wi, mode) * (cosine / max(s.pdf, 1e-30));
         }
         // Samples of microfacets on the wrong side of either normal are discarded.
         bool wrongSide = (fromSheen || fromFacets || fromCoat || fromThrough) &&
                          (refraction || fromThrough
                               ? dot(frame.geometric, s.wi) >= 0.0 || dot(frame.shading, s.wi) >= 0.0
-                              : dot(frame.shading, s.wi) <= 0.0);
+                              : dot(frame.shading, s.wi) <= 0.0 || (bentCoat && i.z <= 0.0));
         bool through = refraction || fromThrough;
         if (wrongSide || (!through && dot(frame.geometric, s.wi) <= 0.0)) s.pdf = 0.0;
     } else if (dot(frame.geometric, s.wi) <= 0.0) {
@@ -312,7 +343,7 @@ vec3 bsdfAlbedo(Bsdf bsdf, BsdfFrame frame, vec3 wo) {
         albedo += glassFraction(bsdf) * (reflected + (1.0 - reflected) * bsdf.baseColor);
     }
     if (isOutside(bsdf)) {
-        if (kClearcoat) albedo = mix(albedo, vec3(1.0), clearcoatReflectance(bsdf, cosine));
+        if (kClearcoat) albedo = mix(albedo, vec3(1.0), clearcoatReflectance(bsdf, coatCosine(frame, wo, cosine)));
         if (kSheen) albedo = albedo * (1.0 - sheenAlbedo(bsdf, cosine)) + bsdf.sheenColor * min(sheenTableAlbedo(cosine, bsdf.sheenRoughness), 1.0);
     }
     return clamp(albedo, 0.0, 1.0);

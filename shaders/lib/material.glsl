@@ -70,6 +70,7 @@ Bsdf bsdfOf(Material material, bool front) {
     // KHR_materials_anisotropy.
     bsdf.alpha = vec2(kAnisotropic ? mix(alpha, 1.0, material.anisotropy * material.anisotropy) : alpha, alpha);
     bsdf.tangent = vec3(0.0);
+    bsdf.coatNormal = vec3(0.0);
     bsdf.attenuation = thin || material.transmission <= 0.0 ? vec3(0.0) : material.attenuation;
     return bsdf;
 }

@@ -9,7 +9,8 @@
 
 uvec4 fetchMaterialTexel(uint index);
 
-// The values of a material's textures, by group. All but the normal and the anisotropy's direction are factors.
+// The values of a material's textures, by group. All but the normals and the anisotropy's direction are
+// factors.
 struct TextureValues {
     vec4 base;
     vec4 surface;
@@ -18,13 +19,14 @@ struct TextureValues {
     vec4 normal;
     vec4 anisotropy;
     vec4 emission;
+    vec4 coatNormal;
 };
 
-// Those of a material without textures: factors of 1, the normal along z, and the anisotropy along x, encoded as in
+// Those of a material without textures: factors of 1, the normals along z, and the anisotropy along x, encoded as in
 // images.
 TextureValues noTextures() {
     return TextureValues(vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0), vec4(0.5, 0.5, 1.0, 1.0),
-                         vec4(1.0, 0.5, 1.0, 1.0), vec4(1.0));
+                         vec4(1.0, 0.5, 1.0, 1.0), vec4(1.0), vec4(0.5, 0.5, 1.0, 1.0));
 }
 
 // The textures of a material: the index of the first, and their number.
@@ -36,6 +38,11 @@ uvec2 fetchTextureRange(uint material) {
 // The factor of the x and y of normals in images.
 float fetchNormalScale(uint material) {
     return uintBitsToFloat(fetchMaterialTexel(material * kMaterialTexels + kMaterialAttenuationTexel).w);
+}
+
+// The same of the normals of the clearcoat.
+float fetchCoatNormalScale(uint material) {
+    return uintBitsToFloat(fetchMaterialTexel(material * kMaterialTexels + kMaterialCoatTexel).x);
 }
 
 // The component at a shift in DeviceTexture.flags.
@@ -84,6 +91,9 @@ TextureValues sampleTextures(uint material, uint groups, vec2 uv, vec2 secondUv)
             }
             if (isTextured(kGroupEmission) && group == kGroupEmission) {
                 values.emission = replaced(values.emission, value, image.flags);
+            }
+            if (isTextured(kGroupCoatNormal) && group == kGroupCoatNormal) {
+                values.coatNormal = replaced(values.coatNormal, value, image.flags);
             }
         }
     }

@@ -16,4 +16,7 @@ layout(constant_id = kSpecCoverage) const bool kCoverage = false;
 
 bool isTextured(uint group) { return (kTextureGroups & (1u << group)) != 0u; }
 
+// Whether textures or colours of vertices scale the emission of some material.
+bool isEmissionScaled() { return isTextured(kGroupEmission) || isTextured(kGroupEmissionColour); }
+
 #endif

@@ -6,7 +6,7 @@
 
 DUOLUX_BEGIN
 
-DUOLUX_CONST uint kMaterialTexels = 15u;  // of 4 x uint32
+DUOLUX_CONST uint kMaterialTexels = 16u;  // of 4 x uint32
 // The texels of a DeviceMaterial, by their first field.
 DUOLUX_CONST uint kMaterialBaseColorTexel = 0u;
 DUOLUX_CONST uint kMaterialMetallicTexel = 1u;
@@ -17,12 +17,14 @@ DUOLUX_CONST uint kMaterialAttenuationTexel = 5u;
 DUOLUX_CONST uint kMaterialAlphaTexel = 6u;
 DUOLUX_CONST uint kMaterialOpaqueTexel = 7u;  // four
 DUOLUX_CONST uint kMaterialTransparentTexel = 11u;
+DUOLUX_CONST uint kMaterialCoatTexel = 15u;
 
 // DeviceMaterial.flags.
 DUOLUX_CONST uint kMaterialTwoSided = 1u;    // f_opaque acts on both sides
 DUOLUX_CONST uint kMaterialThin = 2u;        // refraction through a wall without thickness
 DUOLUX_CONST uint kMaterialAlphaMask = 4u;   // alpha is 0 below the cutoff, else 1
 DUOLUX_CONST uint kMaterialAlphaBlend = 8u;  // without either of the two, alpha is 1
+DUOLUX_CONST uint kMaterialUnlit = 16u;      // colours of vertices scale the emission
 
 // Lobes.
 DUOLUX_CONST uint kLobeDiffuse = 1u;
@@ -63,6 +65,8 @@ struct DeviceMaterial {
     uint textureCount;
     vec4 opaque[4];  // m00 m01 m10 m11 in xyz
     vec4 transparent[4];
+    float clearcoatNormalScale;
+    uint unused[3];
 };
 static_assert(sizeof(DeviceMaterial) == kMaterialTexels * 16);
 static_assert(offsetof(DeviceMaterial, metallic) == kMaterialMetallicTexel * 16);
@@ -73,6 +77,7 @@ static_assert(offsetof(DeviceMaterial, attenuation) == kMaterialAttenuationTexel
 static_assert(offsetof(DeviceMaterial, alpha) == kMaterialAlphaTexel * 16);
 static_assert(offsetof(DeviceMaterial, opaque) == kMaterialOpaqueTexel * 16);
 static_assert(offsetof(DeviceMaterial, transparent) == kMaterialTransparentTexel * 16);
+static_assert(offsetof(DeviceMaterial, clearcoatNormalScale) == kMaterialCoatTexel * 16);
 #endif
 
 DUOLUX_END

@@ -22,7 +22,10 @@ DUOLUX_CONST uint kGroupSheen = 3u;       // sheen colour, sheen roughness
 DUOLUX_CONST uint kGroupNormal = 4u;      // normal, clearcoat roughness
 DUOLUX_CONST uint kGroupAnisotropy = 5u;  // direction, strength
 DUOLUX_CONST uint kGroupEmission = 6u;    // emission
-DUOLUX_CONST uint kTextureGroupCount = 7u;
+DUOLUX_CONST uint kGroupCoatNormal = 7u;  // normal of the clearcoat
+DUOLUX_CONST uint kTextureGroupCount = 8u;
+// Among the groups that a scene uses, but without textures: colours of vertices scale the emission of some material.
+DUOLUX_CONST uint kGroupEmissionColour = 8u;
 
 // DeviceTexture.flags: the group in bits 0 to 2, and then:
 DUOLUX_CONST uint kTextureGroupMask = 7u;

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <string>
 
-#include "host/albedo/albedo_tables.h"
-#include "shaders/shared/albedo_layout.h"
 #include "shaders/shared/material_layout.h"
+#include "tests/shader/bsdf_surfaces.h"
 #include "tests/shader/density.h"
 #include "tests/shader/inputs.h"
 #include "tests/shader/mirror_types.h"
@@ -19,137 +17,6 @@
 
 namespace duolux::test {
 namespace {
-
-using mirror::single::Bsdf;
-using mirror::single::BsdfFrame;
-using mirror::single::BsdfSample;
-
-constexpr std::uint32_t kRadiance = 0, kImportance = 1;
-constexpr std::uint32_t kThin = 1, kOutside = 2;  // kBsdf... of bsdf_types.glsl
-
-ShaderLibrary libraryOf(std::uint32_t lobes) {
-    static const std::vector<glm::uvec4> tables = [] {
-        std::vector<glm::uvec4> texels(shared::kAlbedoTexels);
-        std::memcpy(texels.data(), albedoTables().data(), albedoTables().size_bytes());
-        mirror::texels().albedo = texels;
-        return texels;
-    }();
-    ShaderLibrary library("shaders/lib/bsdf.glsl");
-    library.texels("fetchAlbedoTexel", std::span(tables)).constant(shared::kSpecLobes, lobes);
-    return library;
-}
-
-const ShaderLibrary& bsdf() {
-    static const ShaderLibrary library = libraryOf(shared::kAllLobes);
-    return library;
-}
-
-/// The library compiled for scenes that only have diffuse surfaces.
-const ShaderLibrary& diffuseOnly() {
-    static const ShaderLibrary library = libraryOf(shared::kLobeDiffuse);
-    return library;
-}
-
-/// The normal is z, so directions are in the local frame.
-const BsdfFrame kFlat{{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f}};
-
-BsdfFrame frameWith(const glm::vec3& shading, const glm::vec3& geometric) {
-    const glm::vec3 across =
-        std::abs(shading.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
-    return {shading, geometric, glm::normalize(glm::cross(shading, across))};
-}
-
-const std::vector<glm::vec3> kOutgoing{{0.0f, 0.0f, 1.0f},
-                                       {0.6f, 0.0f, 0.8f},
-                                       {0.0f, -0.8f, 0.6f},
-                                       {0.48f, 0.64f, 0.6f},
-                                       {0.98f, 0.0f, 0.198997f}};
-
-/// White and diffuse, seen from outside.
-Bsdf whiteDiffuse() {
-    Bsdf b{};
-    b.baseColor = glm::vec3(1.0f);
-    b.roughness = 0.5f;
-    b.eta = 1.5f;
-    b.flags = kOutside;
-    return b;
-}
-
-Bsdf rough(Bsdf b, float roughness) {
-    b.roughness = roughness;
-    b.alpha = glm::vec2(roughness * roughness);
-    return b;
-}
-
-Bsdf metal(float metallic, float roughness, const glm::vec3& color = glm::vec3(1.0f)) {
-    Bsdf b = rough(whiteDiffuse(), roughness);
-    b.metallic = metallic;
-    b.baseColor = color;
-    return b;
-}
-
-/// Diffuse under the reflection of a dielectric.
-Bsdf dielectric(float ior, float roughness, const glm::vec3& color = glm::vec3(1.0f)) {
-    Bsdf b = rough(whiteDiffuse(), roughness);
-    const float root = (ior - 1.0f) / (ior + 1.0f);
-    b.f0 = glm::vec3(root * root);
-    b.specular = 1.0f;
-    b.eta = ior;
-    b.baseColor = color;
-    return b;
-}
-
-/// `eta` < 1: seen from inside.
-Bsdf glass(float eta, float roughness, bool thin = false) {
-    Bsdf b = dielectric(std::max(eta, 1.0f / eta), roughness);
-    b.transmission = 1.0f;
-    b.eta = eta;
-    b.flags = (thin ? kThin : 0u) | (eta > 1.0f ? kOutside : 0u);
-    return b;
-}
-
-Bsdf clearcoat(Bsdf b, float amount, float roughness) {
-    b.clearcoat = amount;
-    b.clearcoatRoughness = roughness;
-    return b;
-}
-
-Bsdf sheen(Bsdf b, float amount, float roughness) {
-    b.sheenColor = glm::vec3(amount);
-    b.sheenRoughness = roughness;
-    return b;
-}
-
-/// As KHR_materials_anisotropy stretches alpha along the tangent.
-Bsdf anisotropic(Bsdf b, float strength) {
-    b.alpha.x = glm::mix(b.alpha.y, 1.0f, strength * strength);
-    return b;
-}
-
-/// Midpoints of 512 x 512 cells of (z, phi) over the sphere; each cell has the solid angle 4 pi / 512^2.
-std::vector<glm::vec3> sphere() {
-    std::vector<glm::vec3> directions;
-    for (const glm::dvec2 u : unitSquare(512)) {
-        const double z = 2.0 * u.x - 1.0;
-        const double r = std::sqrt(1.0 - z * z);
-        directions.emplace_back(r * std::cos(2.0 * std::numbers::pi * u.y),
-                                r * std::sin(2.0 * std::numbers::pi * u.y), z);
-    }
-    return directions;
-}
-
-/// Integrals over the sphere: f |cos| in xyz, the density in w.
-glm::dvec4 integrals(const ShaderLibrary& library, const Bsdf& b, const glm::vec3& wo,
-                     std::uint32_t mode = kRadiance) {
-    static const std::vector<glm::vec3> directions = sphere();
-    glm::dvec4 sum(0.0);
-    for (const glm::vec4& v :
-         library.evaluate<glm::vec4>("result = vec4(bsdfEvaluate(x0, x1, x2, x3, x4) * bsdfCosine(x1, x3, "
-                                     "x4), bsdfPdf(x0, x1, x2, x3, x4));",
-                                     b, kFlat, wo, directions, mode))
-        sum += glm::dvec4(v);
-    return sum * (4.0 * std::numbers::pi / static_cast<double>(directions.size()));
-}
 
 /// Surfaces of which a direction and a description make the message of a failure.
 struct Furnace {
@@ -277,7 +144,7 @@ TEST(Bsdf, SamplesHaveTheirDensity) {
             BsdfFrame frame = kFlat;
             if (smooth) frame = frameWith(glm::normalize(glm::vec3(0.2f, 0.25f, 1.0f)), frame.geometric);
             const mirror::twice::BsdfFrame exact{glm::dvec3(frame.shading), glm::dvec3(frame.geometric),
-                                                 glm::dvec3(frame.tangent)};
+                                                 glm::dvec3(frame.tangent), glm::dvec3(frame.coat)};
             const auto density = [&](double z, double phi) {
                 const double r = std::sqrt(std::max(1.0 - z * z, 0.0));
                 return mirror::twice::bsdfPdf(widen(c.bsdf), exact, glm::dvec3(wo),

@@ -11,7 +11,7 @@ uvec4 fetchAlbedoTexel(uint index) {
 BsdfFrame frameWith(vec3 shading, vec3 geometric) {
     vec3 tangent, bitangent;
     orthonormalBasis(shading, tangent, bitangent);
-    return BsdfFrame(shading, geometric, tangent);
+    return BsdfFrame(shading, geometric, tangent, shading);
 }
 
 // Frames of a flat surface, and of one whose shading normal deviates by up to 40 degrees.
@@ -32,7 +32,7 @@ vec3 above(vec3 normal) {
 vec3 onEitherSide() { return randomDirection(); }
 
 Bsdf diffuseBsdf(vec3 albedo) {
-    return Bsdf(albedo, 0.0, 0.5, vec3(0.0), 0.0, 0.0, 1.5, kBsdfOutside, 0.0, 0.0, vec3(0.0), 0.0, vec2(0.25), vec3(0.0), vec3(0.0));
+    return Bsdf(albedo, 0.0, 0.5, vec3(0.0), 0.0, 0.0, 1.5, kBsdfOutside, 0.0, 0.0, vec3(0.0), 0.0, vec2(0.25), vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
 // Any mixture of base lobes, without layers on it.
@@ -46,7 +46,7 @@ Bsdf randomBase() {
     float specular = testIndex() % 4u == 0u ? 0.0 : randomFloat(0.0, 1.0);
     vec2 alpha = vec2(randomFloat(roughness * roughness, 1.0), roughness * roughness);
     return Bsdf(randomVec3(0.0, 1.0), metallic, roughness, randomVec3(0.0, 0.3) * specular, specular, transmission, eta,
-                flags, 0.0, 0.0, vec3(0.0), 0.0, alpha, vec3(0.0), vec3(0.0));
+                flags, 0.0, 0.0, vec3(0.0), 0.0, alpha, vec3(0.0), vec3(0.0), vec3(0.0));
 }
 Bsdf randomBsdf() {
     Bsdf bsdf = randomBase();
@@ -67,7 +67,7 @@ Bsdf fromOtherSide(Bsdf bsdf) {
     bsdf.flags ^= kBsdfOutside;
     return bsdf;
 }
-BsdfFrame fromOtherSide(BsdfFrame frame) { return BsdfFrame(-frame.shading, -frame.geometric, frame.tangent); }
+BsdfFrame fromOtherSide(BsdfFrame frame) { return BsdfFrame(-frame.shading, -frame.geometric, frame.tangent, -frame.coat); }
 
 uint randomMode() { return randomUint() & 1u; }
 

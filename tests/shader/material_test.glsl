@@ -29,7 +29,7 @@ TEST_N(MatricesAreFourTexelsInARow, 64) {
 
 // Materials follow each other without gaps: of 15 texels the matrices are at 7 and 11.
 TEST_N(MaterialsLieSideBySide, 64) {
-    uint texel = testIndex() * 15u;
+    uint texel = testIndex() * 16u;
     Material material = fetchMaterial(testIndex());
     EXPECT_EQ(material.baseColor.x, float(16u * texel + 1u));
     EXPECT_EQ(material.roughness, float(16u * (texel + 1u) + 2u));

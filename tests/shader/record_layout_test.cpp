@@ -86,6 +86,7 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
     library.texels("fetchMaterialTexel", std::span(std::as_const(records)));
     const auto ranges = library.call<glm::uvec2>("fetchTextureRange", recordIndices());
     const auto normalScales = library.call<float>("fetchNormalScale", recordIndices());
+    const auto coatScales = library.call<float>("fetchCoatNormalScale", recordIndices());
     const auto materials = library.call<Material>("fetchMaterial", recordIndices());
     const auto opaque = library.call<ReflectanceMatrix>("fetchOpaque", recordIndices());
     const auto transparent = library.call<ReflectanceMatrix>("fetchTransparent", recordIndices());
@@ -105,6 +106,7 @@ TEST(RecordLayout, MaterialsAreFetchedFieldByField) {
         EXPECT_EQ((std::vector<double>{static_cast<double>(ranges[i].x), static_cast<double>(ranges[i].y),
                                        static_cast<double>(normalScales[i])}),
                   record.ofWords({"firstTexture", "textureCount", "normalScale"}));
+        EXPECT_EQ(static_cast<double>(coatScales[i]), record.ofWords({"clearcoatNormalScale"}).at(0));
         EXPECT_EQ(numbers(opaque[i]), matrix("opaque"));
         EXPECT_EQ(numbers(transparent[i]), matrix("transparent"));
         record.expectAllFetched();

@@ -249,8 +249,8 @@ std::shared_ptr<const Image> pixelImage(std::array<std::uint8_t, 4> bytes) {
 }
 
 TEST(Textures, EveryInputReachesItsComponent) {
-    constexpr std::array<const char*, 7> kFields{"base",   "surface",    "specular", "sheen",
-                                                 "normal", "anisotropy", "emission"};
+    constexpr std::array<const char*, 8> kFields{"base",   "surface",    "specular", "sheen",
+                                                 "normal", "anisotropy", "emission", "coatNormal"};
     // All inputs, each from its own image: a number from the channel of its turn.
     std::vector<MaterialTexture> entries;
     std::vector<std::shared_ptr<const Image>> images;
@@ -280,18 +280,19 @@ TEST(Textures, EveryInputReachesItsComponent) {
         return glm::dvec3(4 * input + 100, 4 * input + 101, 4 * input + 102) / 255.0;
     };
     const auto number = [](int input) { return (4 * input + input % 4 + 100) / 255.0; };
-    const std::array<glm::dvec4, 7> expected{
+    const std::array<glm::dvec4, 8> expected{
         glm::dvec4(colour(0), number(1)),  glm::dvec4(number(2), number(3), number(6), number(7)),
         glm::dvec4(colour(5), number(4)),  glm::dvec4(colour(9), number(10)),
         glm::dvec4(colour(12), number(8)), glm::dvec4(colour(11), 1.0),
-        glm::dvec4(colour(13), 1.0)};
+        glm::dvec4(colour(13), 1.0),       glm::dvec4(colour(14), 1.0)};
     // A material without textures, one with all, and this one where the group is not asked for.
     const std::vector<std::uint32_t> asked{0, 1, 1};
     for (std::size_t group = 0; group < kFields.size(); ++group) {
         const auto values = library.evaluate<glm::vec4>(
             fmt::format("result = sampleTextures(x0, x1, vec2(0.5), vec2(0.5)).{};", kFields[group]), asked,
             std::vector<std::uint32_t>{table.groups, table.groups, table.groups & ~(1u << group)});
-        const glm::vec4 neutral = group == shared::kGroupNormal       ? glm::vec4(0.5, 0.5, 1, 1)
+        const glm::vec4 neutral = group == shared::kGroupNormal || group == shared::kGroupCoatNormal
+                                      ? glm::vec4(0.5, 0.5, 1, 1)
                                   : group == shared::kGroupAnisotropy ? glm::vec4(1, 0.5, 1, 1)
                                                                       : glm::vec4(1.0);
         EXPECT_EQ(values[0], neutral) << kFields[group];

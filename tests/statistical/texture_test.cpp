@@ -233,6 +233,50 @@ TEST(NormalMaps, TurnTheNormal) {
     }
 }
 
+/// The light of a lamp that a black square with a clearcoat reflects; its normals point along `tilt`, if that
+/// is not 0.
+double coatBrightness(Material material, const glm::vec3& tilt, const std::vector<glm::vec3>& texels,
+                      Integrator integrator) {
+    material.baseColor = glm::vec3(0.0f);
+    material.clearcoat = 1.0f;
+    material.clearcoatRoughness = 0.5f;
+    SceneBuilder builder = square(material);
+    addLamp(builder, 5.0f);
+    LoadedScene& scene = builder.scene;
+    if (tilt != glm::vec3(0.0f)) {
+        scene.geometry.normals = {glm::normalize(tilt)};
+        scene.geometry.normalIndices.assign(scene.geometry.triangles.size(), glm::uvec3(Geometry::kNoNormal));
+        scene.geometry.normalIndices[0] = scene.geometry.normalIndices[1] = glm::uvec3(0);
+    }
+    for (const glm::vec3& texel : texels)
+        scene.images.push_back(uniformColour({texel, 1.0f}));
+    scene.settings.integrator = integrator;
+    scene.settings.spp = integrator == Integrator::kPathTracer ? 256 : 2048;
+    return meanOf(renderOnce(scene));
+}
+
+/// A normal map of the clearcoat is as good as normals of vertices; one of what lies below does not bend it.
+TEST(NormalMaps, OfClearcoats) {
+    const glm::vec3 texel(0.65f, 0.35f, 0.5f + 0.5f * std::sqrt(0.82f));  // of the normal (0.3, -0.3, 0.906)
+    const glm::vec3 normal(0.3f, -0.3f, std::sqrt(0.82f));
+    Material plain, coat, below;
+    coat.textures = {textureFor(MaterialInput::kClearcoatNormal)};
+    below.textures = {textureFor(MaterialInput::kNormal)};
+    Material halved = coat;
+    halved.clearcoatNormalScale = 0.5f;
+    for (const Integrator integrator : {Integrator::kPathTracer, Integrator::kLightTracer}) {
+        const double flat = coatBrightness(plain, {}, {}, integrator);
+        const double tilted = coatBrightness(plain, normal, {}, integrator);
+        ASSERT_GT(std::abs(tilted - flat), 0.1 * flat) << "so that the tests mean something";
+        const double tolerance = 0.02 * flat;
+        EXPECT_NEAR(coatBrightness(coat, {}, {texel}, integrator), tilted, tolerance) << nameOf(integrator);
+        EXPECT_NEAR(coatBrightness(below, {}, {texel}, integrator), flat, tolerance) << nameOf(integrator);
+        EXPECT_NEAR(coatBrightness(halved, {}, {texel}, integrator),
+                    coatBrightness(plain, normal * glm::vec3(0.5f, 0.5f, 1.0f), {}, integrator), tolerance)
+            << nameOf(integrator);
+    }
+}
+
 /// The same lamp as a texture that is black on one half, and as a quad of half the size.
 TEST(Textures, LampsShineWhereTheirTexturesDo) {
     Material grey;

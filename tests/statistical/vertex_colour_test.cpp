@@ -90,5 +90,42 @@ TEST(VertexColours, ScaleTheLightOfLightPaths) {
     expectColours(Integrator::kLightTracer, {});
 }
 
+/// The camera sees the colour of an unlit surface itself, in either integrator.
+TEST(VertexColours, ScaleTheEmissionOfUnlitSurfaces) {
+    for (const TuningChoice& tuning : allTunings(device().info())) {
+        for (const Integrator integrator : {Integrator::kPathTracer, Integrator::kLightTracer}) {
+            LoadedScene scene = floorScene(true);
+            Material& material = scene.materials[0];
+            material.baseColor = glm::vec3(0.0f);
+            material.emission.visible = {0.5f, 1.0f, 2.0f};
+            material.emission.sides = Sides::kBoth;
+            const bool byLight = integrator == Integrator::kLightTracer;
+            if (byLight && tuning.layout != allTunings(device().info()).front().layout) continue;
+            scene.settings.integrator = integrator;
+            scene.settings.spp = byLight ? 4096 : 64;
+            RenderControl control;
+            control.tuning = tuning;
+            const std::vector<glm::vec3> plain = render(device(), scene, control).film.resolve().visible;
+            material.unlit = true;
+            const std::vector<glm::vec3> unlit = render(device(), scene, control).film.resolve().visible;
+            // The middle of the picture, around the centre of the floor, where the colour is (0.5, 0.5, 0.3).
+            glm::dvec3 plainMean(0.0), mean(0.0);
+            for (std::uint32_t y = 10; y < 14; ++y) {
+                for (std::uint32_t x = 10; x < 14; ++x) {
+                    plainMean += glm::dvec3(plain[y * 24 + x]) / 16.0;
+                    mean += glm::dvec3(unlit[y * 24 + x]) / 16.0;
+                }
+            }
+            const double tolerance = byLight ? 0.1 : 2e-3;
+            for (int c = 0; c < 3; ++c) {
+                const double expected = static_cast<double>(material.emission.visible[c]);
+                EXPECT_NEAR(plainMean[c], expected, tolerance * expected) << nameOf(integrator);
+                EXPECT_NEAR(mean[c], expected * colourAt(glm::dvec3(0.0))[c], 2.0 * tolerance * expected)
+                    << nameOf(integrator);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace duolux::test

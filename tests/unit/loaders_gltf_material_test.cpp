@@ -147,9 +147,8 @@ TEST_F(GltfMaterialTest, UnlitSurfacesShowTheirColourAndLightNothing) {
     EXPECT_THAT(read.warnings, IsEmpty());
     GltfFile coloured = fileWith(material);
     coloured.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = coloured.vec3(kCorners);
-    EXPECT_THAT(warningsOf(mesh(coloured)),
-                ElementsAre("mesh.gltf: materials[0]: colours of vertices of an unlit "
-                            "surface are not supported: ignored"));
+    EXPECT_TRUE(unlit.unlit);
+    EXPECT_THAT(warningsOf(mesh(coloured)), IsEmpty());
 }
 
 TEST_F(GltfMaterialTest, TexturesHaveTheChannelsOfTheirSpecifications) {
@@ -164,7 +163,10 @@ TEST_F(GltfMaterialTest, TexturesHaveTheChannelsOfTheirSpecifications) {
         {"KHR_materials_specular", {{"specularTexture", one}, {"specularColorTexture", two}}},
         {"KHR_materials_transmission", {{"transmissionTexture", two}}},
         {"KHR_materials_volume", {{"thicknessTexture", zero}}},
-        {"KHR_materials_clearcoat", {{"clearcoatTexture", zero}, {"clearcoatRoughnessTexture", one}}},
+        {"KHR_materials_clearcoat",
+         {{"clearcoatTexture", zero},
+          {"clearcoatRoughnessTexture", one},
+          {"clearcoatNormalTexture", {{"index", 2}, {"scale", 0.25}}}}},
         {"KHR_materials_sheen", {{"sheenColorTexture", two}, {"sheenRoughnessTexture", zero}}},
         {"KHR_materials_anisotropy", {{"anisotropyTexture", one}}}};
     const Mesh read = mesh(fileWith(material));
@@ -174,8 +176,9 @@ TEST_F(GltfMaterialTest, TexturesHaveTheChannelsOfTheirSpecifications) {
                     "specular image1.png a", "specular_color image2.png srgb", "transmission image2.png r",
                     "clearcoat image0.png r", "clearcoat_roughness image1.png g",
                     "sheen_color image2.png srgb", "sheen_roughness image0.png a", "anisotropy image1.png r",
-                    "normal image2.png r", "emission image0.png srgb"));
+                    "normal image2.png r", "emission image0.png srgb", "clearcoat_normal image2.png r"));
     EXPECT_EQ(read.materials[0].normalScale, -0.5f);
+    EXPECT_EQ(read.materials[0].clearcoatNormalScale, 0.25f);
     EXPECT_EQ(read.images.size(), 3u) << "each image once";
     EXPECT_THAT(read.warnings, IsEmpty());
 
@@ -185,9 +188,6 @@ TEST_F(GltfMaterialTest, TexturesHaveTheChannelsOfTheirSpecifications) {
                 ElementsAre("base_color image2.png srgb", "alpha image2.png a"));
 }
 
-TEST_F(GltfMaterialTest, TexturesHaveSamplersAndTransforms) {
-    GltfFile file =
-        fileWith({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
 TEST_F(GltfMaterialTest, GlossinessInImagesBecomesRoughness) {
     const json image{{"index", 1}};
     const auto materialWith = [&](const json& extension) {
@@ -204,6 +204,9 @@ TEST_F(GltfMaterialTest, GlossinessInImagesBecomesRoughness) {
     EXPECT_THAT(read.warnings, IsEmpty());
 }
 
+TEST_F(GltfMaterialTest, TexturesHaveSamplersAndTransforms) {
+    GltfFile file =
+        fileWith({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
     file.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
     file.json["textures"][0]["sampler"] = 0;
     json& info = file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
@@ -252,8 +255,6 @@ TEST_F(GltfMaterialTest, ImagesAreFilesOrPartsOfTheFile) {
 TEST_F(GltfMaterialTest, HarmlessErrorsAreOneWarningEach) {
     GltfFile file = fileWith({{"pbrMetallicRoughness", {{"metallicFactor", 1.5}, {"roughnessFactor", -1}}}});
     file.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_iridescence", "ACME_x"};
-    file.json["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] = {
-        {"index", 0}};
     const Mesh read = mesh(file);
     EXPECT_EQ(read.materials[0].metallic, 1.0f);
     EXPECT_EQ(read.materials[0].roughness, 0.0f);
@@ -264,10 +265,7 @@ TEST_F(GltfMaterialTest, HarmlessErrorsAreOneWarningEach) {
                     "mesh.gltf: extensionsUsed[2]: the extension \"ACME_x\" is not supported: ignored",
                     "mesh.gltf: materials[0].pbrMetallicRoughness.metallicFactor: a factor is out of range "
                     "(and 1 more): the "
-                    "nearest that is possible is used",
-                    "mesh.gltf: materials[0].extensions.KHR_materials_clearcoat.clearcoatNormalTexture: "
-                    "normals of a clear coat "
-                    "are not supported: the coat is smooth"));
+                    "nearest that is possible is used"));
     EXPECT_EQ(errorOfGltf(file, Reading::kStrict),
               "mesh.gltf: materials[0].pbrMetallicRoughness.metallicFactor: a "
               "factor is out of range; expected a number from 0 to 1");

@@ -211,13 +211,13 @@ TEST(Hash, IsTheSameInEveryBuild) {
     scene.geometry.triangles = {{0, 1, 2}};
     scene.geometry.materials = {0};
     scene.materials.resize(1);
-    EXPECT_EQ(hashScene(scene), "e9f0f68a1ff4a156");
+    EXPECT_EQ(hashScene(scene), "b11d3b81bccc0a66");
     scene.geometry.normals = {{0, 0, 1}};
     scene.geometry.normalIndices = {{0, 0, 0}};
     scene.geometry.colours.assign(3, glm::vec3(0.5f));
     scene.materials[0].reflectance = blendReflectance(0.5f, 0.25f);
     scene.camera.type = CameraType::kOrthographic;
-    EXPECT_EQ(hashScene(scene), "2eae30364b29f1a6");
+    EXPECT_EQ(hashScene(scene), "e59265c2ffe2814a");
 }
 
 TEST_F(HashTest, NamesAndSettingsDoNotCount) {

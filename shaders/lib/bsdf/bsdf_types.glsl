@@ -30,6 +30,7 @@ struct Bsdf {
     vec2 alpha;           // of GGX, along and across the tangent
     vec3 tangent;         // unit, in the plane of the shading normal; of anisotropic lobes
     vec3 attenuation;     // inside glass, per scene unit
+    vec3 coatNormal;      // unit, on the side of wo; of the clearcoat, if hasCoatNormals()
 };
 
 const uint kBsdfThin = 1u;     // glass is a wall without thickness
@@ -38,12 +39,13 @@ const uint kBsdfOutside = 2u;  // wo is on the side of the triangle's front
 bool isThin(Bsdf bsdf) { return (bsdf.flags & kBsdfThin) != 0u; }
 bool isOutside(Bsdf bsdf) { return (bsdf.flags & kBsdfOutside) != 0u; }
 
-// The two unit normals of a surface, both on the side of `wo`, and the unit tangent, at a right angle to the shading
+// The unit normals of a surface, both on the side of `wo`, and the unit tangent, at a right angle to the shading
 // normal. `wo` is above the geometric normal's horizon, but may be below the shading normal's.
 struct BsdfFrame {
     vec3 shading;
     vec3 geometric;
     vec3 tangent;  // used only by anisotropic lobes
+    vec3 coat;     // unit, on the same side: the normal of the clearcoat, if hasCoatNormals()
 };
 
 #ifdef DUOLUX_PLAIN

@@ -4,6 +4,18 @@
 #define DUOLUX_LIB_BSDF_CLEARCOAT_GLSL
 
 #include "shaders/lib/bsdf/reflection.glsl"
+#include "shaders/lib/texture_groups.glsl"
+
+// Whether the normal of the varnish may differ from the shading normal, which a normal map of what lies below bends.
+bool hasCoatNormals() {
+    return (kLobes & kLobeClearcoat) != 0u && (isTextured(kGroupNormal) || isTextured(kGroupCoatNormal));
+}
+
+// A direction in the frame of the clearcoat's normal. `local`: in that of the shading normal.
+vec3 toCoatFrame(BsdfFrame frame, vec3 w, vec3 local) { return hasCoatNormals() ? toFrame(frame.coat, w) : local; }
+
+// Its cosine to the clearcoat's normal. `cosine`: to the shading normal.
+float coatCosine(BsdfFrame frame, vec3 w, float cosine) { return hasCoatNormals() ? abs(dot(frame.coat, w)) : cosine; }
 
 const float kClearcoatF0 = 0.04;
 

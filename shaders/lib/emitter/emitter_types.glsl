@@ -9,11 +9,11 @@
 #include "shaders/shared/emitter_layout.h"
 
 uvec4 fetchEmitterTexel(uint index);
-// What textures and coverage make of the emission at a point of a triangle in device memory, a factor.
+// What textures, colours of vertices and coverage make of the emission at a point of a triangle in device memory, a factor.
 vec3 emissionTexel(uint triangle, vec2 barycentric);
 
 // Whether emission differs between the points of a triangle.
-bool emissionVaries() { return isTextured(kGroupEmission) || kCoverage; }
+bool emissionVaries() { return isEmissionScaled() || kCoverage; }
 
 struct Emitter {
     vec3 v0;
