@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
@@ -7,6 +8,7 @@
 #include "host/vk/buffer.h"
 #include "host/vk/device.h"
 #include "host/vk/instance.h"
+#include "host/vk/pipeline.h"
 
 // Vulkan's objects behind the classes of this folder. Its other headers do not include Vulkan's, which take
 // seconds to compile.
@@ -22,6 +24,7 @@ struct Device::Handles {
     vk::raii::Queue queue{nullptr};
     std::uint32_t queueFamily = 0;
     double timestampPeriod = 0.0;  ///< nanoseconds per tick; 0: no timestamps
+    std::unique_ptr<Pipelines> pipelines = std::make_unique<Pipelines>();
 };
 
 struct Buffer::Handles {
