@@ -13,6 +13,7 @@
 #include "host/film/codec.h"
 #include "host/image/convert.h"
 #include "host/image/hdr.h"
+#include "host/image/jpeg.h"
 #include "host/image/stb_image.h"
 
 namespace duolux {
@@ -50,7 +51,7 @@ Image decodePngPixels(std::string_view bytes, const std::string& file) {
     const std::string chunks = essentialPngChunks(bytes, file, false);
     constexpr std::size_t kDepth = 24;  // the place of the bits per channel in the first chunk
     if (chunks.size() <= kDepth || chunks[kDepth] != 16) return decodePng8(chunks, file);
-    const StbPixels<std::uint16_t> pixels = decodePng16(chunks, file);
+    const StbPixels pixels = decodePng16(chunks, file);
     Image image;
     image.width = pixels.width;
     image.height = pixels.height;
@@ -88,10 +89,7 @@ DecodedImage decodeImage(const ImageSource& source) {
     if (bytes.starts_with("\x89PNG"sv)) {
         image = decodePngPixels(bytes, file);
     } else if (bytes.starts_with("\xff\xd8"sv)) {
-        StbPixels<std::uint8_t> pixels = decodeJpeg(bytes, file);
-        image.width = pixels.width;
-        image.height = pixels.height;
-        image.bytes = std::move(pixels.values);
+        image = decodeJpeg(bytes, file);
     } else if (bytes.starts_with("#?"sv)) {
         RgbaImage pixels = decodeHdr(bytes, file);
         image = imageOf(pixels.width, pixels.height, std::move(pixels.values));

@@ -85,6 +85,32 @@ TEST(ImageDecode, Jpeg) {
     }
 }
 
+TEST(ImageDecode, JpegOfInks) {
+    // Cyan, magenta, yellow and black as fractions of 255: light is what each lets through.
+    const Image image = decode(cmykJpegOf(8, 8, {0, 51, 102, 51}));
+    ASSERT_EQ(image.bytes.size(), 4u * 64);
+    EXPECT_NEAR(image.bytes[0], 255 * 1.0 * 0.8, 2);
+    EXPECT_NEAR(image.bytes[1], 255 * 0.8 * 0.8, 2);
+    EXPECT_NEAR(image.bytes[2], 255 * 0.6 * 0.8, 2);
+    EXPECT_EQ(image.bytes[3], 255);
+}
+
+TEST(ImageDecode, DamagedJpegs) {
+    std::vector<std::uint8_t> noise(std::size_t{3} * 64 * 64);
+    for (std::size_t i = 0; i < noise.size(); ++i)
+        noise[i] = static_cast<std::uint8_t>(i * i * 31 >> 5);
+    const std::string jpeg = jpegOf(64, 64, noise);
+    EXPECT_EQ(failureOf(jpeg.substr(0, jpeg.size() - 2)), "none") << "only the marker of the end is missing";
+    for (std::size_t size = 2; size < jpeg.size() - 100; size += 53)
+        EXPECT_THAT(failureOf(jpeg.substr(0, size)), HasSubstr("is not a readable JPEG image")) << size;
+    // A table of codes that lists more than there are: 255 of each length.
+    std::string table = jpeg;
+    const std::size_t at = table.find("\xff\xc4");
+    ASSERT_NE(at, std::string::npos);
+    table.replace(at + 5, 16, std::string(16, '\xff'));
+    EXPECT_THAT(failureOf(table), HasSubstr("Bogus Huffman table"));
+}
+
 TEST(ImageDecode, HdrIsLinear) {
     // Mantissas over 256 times 2^(exponent - 128).
     const DecodedImage decoded = decodeImage(embedded(hdrOf(2, 1, {128, 64, 32, 129, 255, 0, 1, 138})));

@@ -1,11 +1,17 @@
 #include "tests/unit/image_files.h"
 
+// clang-format off
+#include <cstdio>  // which jpeglib.h needs
+#include <jpeglib.h>
+// clang-format on
+
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <png.h>
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include "host/base/file.h"
@@ -63,6 +69,37 @@ std::string jpegOf(std::uint32_t width, std::uint32_t height, const std::vector<
                                                   static_cast<std::size_t>(size));
         },
         &out, static_cast<int>(width), static_cast<int>(height), 3, values.data(), 100);
+    return out;
+}
+
+std::string cmykJpegOf(std::uint32_t width, std::uint32_t height, const std::array<std::uint8_t, 4>& inks) {
+    jpeg_compress_struct state{};
+    jpeg_error_mgr errors{};
+    state.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&state);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&state, &bytes, &size);
+    state.image_width = width;
+    state.image_height = height;
+    state.input_components = 4;
+    state.in_color_space = JCS_CMYK;
+    jpeg_set_defaults(&state);
+    jpeg_set_quality(&state, 100, TRUE);
+    jpeg_start_compress(&state, TRUE);
+    std::vector<unsigned char> row;
+    for (std::uint32_t x = 0; x < width; ++x) {
+        for (const std::uint8_t ink : inks)
+            row.push_back(static_cast<unsigned char>(255 - ink));
+    }
+    for (std::uint32_t y = 0; y < height; ++y) {
+        JSAMPROW pointer = row.data();
+        jpeg_write_scanlines(&state, &pointer, 1);
+    }
+    jpeg_finish_compress(&state);
+    jpeg_destroy_compress(&state);
+    std::string out(reinterpret_cast<const char*>(bytes), size);
+    std::free(bytes);
     return out;
 }
 

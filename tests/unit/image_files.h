@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,6 +15,10 @@ std::string pngOf(std::uint32_t width, std::uint32_t height, int depth, int colo
 
 /// That of a JPEG file of the best quality; `values` are RGB.
 std::string jpegOf(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& values);
+
+/// The same whose pixels all are this cyan, magenta, yellow and black, as complements, as Adobe's programs
+/// do.
+std::string cmykJpegOf(std::uint32_t width, std::uint32_t height, const std::array<std::uint8_t, 4>& inks);
 
 /// That of a Radiance HDR file, not compressed; `values` are RGBE.
 std::string hdrOf(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& values);
