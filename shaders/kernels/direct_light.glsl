@@ -83,7 +83,8 @@ void addClosedForm(inout SampleRadiance received, SurfaceHit hit, ReflectanceMat
 // The shadow ray has met a surface, or nothing more up to the emitter.
 void continueShadow(inout Shadow shadow, inout SampleRadiance received, Traversal ray, bool found, uint material) {
     if (kTransparency == kTransparencyGeneral && found) {
-        ReflectanceMatrix m = multiply(shadow.importance, transparentAt(material, coverageAt(ray.triangle, material, ray.barycentric)));
+        float coverage = coverageAt(ray.triangle, material, ray.barycentric);
+        ReflectanceMatrix m = multiply(shadow.importance, transparentAt(material, coverage));
         shadow.importance = m;
         crossSurface(shadow.segment, ray);
         shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;

@@ -59,7 +59,6 @@ TextureValues texturesAt(uint triangle, uint material, uint groups, vec2 barycen
     return values;
 }
 
-
 ReflectanceMatrix fromDevice(DeviceReflectanceMatrix m) { return ReflectanceMatrix(m.m00, m.m01, m.m10, m.m11); }
 ReflectanceMatrix sceneOpaque() { return fromDevice(params.opaque); }
 ReflectanceMatrix sceneTransparent() { return fromDevice(params.transparent); }

@@ -74,9 +74,11 @@ vec3 baseEvaluate(Bsdf bsdf, vec3 wo, vec3 wi) {
     f += diffuseFraction(bsdf) * diffuse;
     if (kGlass) {
         vec2 mean2 = glassMeanLoss(bsdf);
-        float reflected = smoothFacets ? 0.0
-                                       : (1.0 - glassSeveralThrough(bsdf, mean2)) *
-                                             severalEvaluate(Loss(glassLoss(bsdf, wo.z).x, glassLoss(bsdf, wi.z).x, mean2.x));
+        float reflected = 0.0;
+        if (!smoothFacets) {
+            Loss lost = Loss(glassLoss(bsdf, wo.z).x, glassLoss(bsdf, wi.z).x, mean2.x);
+            reflected = (1.0 - glassSeveralThrough(bsdf, mean2)) * severalEvaluate(lost);
+        }
         f += glassFraction(bsdf) * vec3(single * dielectricFresnel(cosine, bsdf.eta) + reflected);
     }
     return f;
@@ -90,7 +92,7 @@ vec3 throughEvaluate(Bsdf bsdf, vec3 wo, vec3 wi) {
                     severalEvaluate(Loss(glassLoss(bsdf, wo.z).x, glassLoss(bsdf, -wi.z).y, mean.y));
     // Radiance grows with the square of the index of refraction: Veach 1997, section 5.2.
     float growth = isThin(bsdf) ? 1.0 : 1.0 / (bsdf.eta * bsdf.eta);
-    return glassFraction(bsdf) * (glassTransmit(bsdf, bsdf.alpha, wo, wi) + bsdf.baseColor * (several * growth));
+    return glassFraction(bsdf) * (glassTransmit(bsdf, wo, wi) + bsdf.baseColor * (several * growth));
 }
 
 // The square of the index of refraction on the side of wi over that on the side of wo, where light passes.
@@ -123,7 +125,7 @@ vec3 bsdfEvaluate(Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
     return f;
 }
 
-// The strategies of sampling and their probabilities, whose sum is 1.
+// The sampling strategies and their probabilities. The sum of the first five is 1.
 struct Strategies {
     float cosine;     // density cos / pi around the normal of the mode: diffuse, several scatterings
     float sheen;      // uniform on the hemisphere around the shading normal
@@ -193,8 +195,8 @@ Strategies bsdfStrategies(Bsdf bsdf, float cosine, float toCoat, uint mode) {
         s.cosine = least * sum;
     }
     float inverse = sum > 0.0 ? 1.0 / sum : 0.0;
-    return Strategies(sum > 0.0 ? s.cosine * inverse : 1.0, s.sheen * inverse, s.facets * inverse, s.clearcoat * inverse,
-                      s.through * inverse, s.refracted);
+    return Strategies(sum > 0.0 ? s.cosine * inverse : 1.0, s.sheen * inverse, s.facets * inverse,
+                      s.clearcoat * inverse, s.through * inverse, s.refracted);
 }
 
 // Density of all strategies that are not deltas. Local directions: `o` above the horizon.
@@ -218,7 +220,7 @@ float strategiesPdf(Strategies s, Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 o, v
         pdf += s.through * -i.z * (1.0 / kPi);
         if (!isSmooth(bsdf)) {
             float passed;
-            float density = glassTransmitPdf(bsdf, bsdf.alpha, o, i, passed);
+            float density = glassTransmitPdf(bsdf, o, i, passed);
             pdf += s.facets * s.refracted * passed * density;
         }
     }
@@ -327,8 +329,8 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
     return s;
 }
 
-// Fraction of the light that is scattered, per channel: approximate, but 0 only where nothing is scattered. Work is
-// distributed over vertices in proportion to it.
+// The fraction of the light that is scattered, per channel. It is approximate, and is 0 only where nothing is scattered.
+// Work is distributed over vertices in proportion to it.
 vec3 bsdfAlbedo(Bsdf bsdf, BsdfFrame frame, vec3 wo) {
     if (kOnlyDiffuse) return bsdf.baseColor;
     float cosine = abs(dot(frame.shading, wo));
@@ -344,7 +346,10 @@ vec3 bsdfAlbedo(Bsdf bsdf, BsdfFrame frame, vec3 wo) {
     }
     if (isOutside(bsdf)) {
         if (kClearcoat) albedo = mix(albedo, vec3(1.0), clearcoatReflectance(bsdf, coatCosine(frame, wo, cosine)));
-        if (kSheen) albedo = albedo * (1.0 - sheenAlbedo(bsdf, cosine)) + bsdf.sheenColor * min(sheenTableAlbedo(cosine, bsdf.sheenRoughness), 1.0);
+        if (kSheen) {
+            float sheen = min(sheenTableAlbedo(cosine, bsdf.sheenRoughness), 1.0);
+            albedo = albedo * (1.0 - sheenAlbedo(bsdf, cosine)) + bsdf.sheenColor * sheen;
+        }
     }
     return clamp(albedo, 0.0, 1.0);
 }

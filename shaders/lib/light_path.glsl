@@ -18,8 +18,8 @@ struct LightPath {
     Radiance2 scattered;  // O L at the chosen vertex of the segment, times shadingAdjoint
 };
 
-// Radiant intensity that leaves a vertex of a light path on the side of its normal, by emission or by scattering
-// (W sr^-1, because a light path carries flux in W). It is connected to the camera.
+// Radiant intensity that leaves a vertex of a light path towards the camera, by emission or by scattering (W sr^-1,
+// because a light path carries flux in W).
 struct Outgoing {
     SurfacePoint point;
     Radiance2 intensity;

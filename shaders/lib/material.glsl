@@ -33,7 +33,7 @@ struct Material {
     uint textureCount;
 };
 
-// What no lobe of the scene uses, the compiler does not fetch.
+// The compiler drops the fetches of what no lobe of the scene uses.
 Material fetchMaterial(uint index) {
     uint texel = index * kMaterialTexels;
     uvec4 color = fetchMaterialTexel(texel + kMaterialBaseColorTexel);
@@ -45,7 +45,8 @@ Material fetchMaterial(uint index) {
     uvec4 alpha = fetchMaterialTexel(texel + kMaterialAlphaTexel);
     return Material(uintBitsToFloat(color.xyz), color.w, metallic.x, metallic.y, metallic.z, metallic.w, specular.xyz,
                     specular.w, transmission.x, transmission.y, transmission.z, transmission.w, sheen.xyz, sheen.w,
-                    attenuation.xyz, attenuation.w, uintBitsToFloat(alpha.x), uintBitsToFloat(alpha.y), alpha.z, alpha.w);
+                    attenuation.xyz, attenuation.w, uintBitsToFloat(alpha.x), uintBitsToFloat(alpha.y), alpha.z,
+                    alpha.w);
 }
 
 // `front`: the surface is seen from its front.
@@ -62,7 +63,7 @@ Bsdf bsdfOf(Material material, bool front) {
     bsdf.specular = material.specular;
     bsdf.transmission = material.transmission;
     bsdf.eta = thin || front ? material.ior : 1.0 / material.ior;
-        bsdf.flags = (thin ? kBsdfThin : 0u) | (front ? kBsdfOutside : 0u);
+    bsdf.flags = (thin ? kBsdfThin : 0u) | (front ? kBsdfOutside : 0u);
     bsdf.clearcoat = material.clearcoat;
     bsdf.clearcoatRoughness = material.clearcoatRoughness;
     bsdf.sheenColor = material.sheenColor;

@@ -7,10 +7,11 @@
 DUOLUX_BEGIN
 
 // A table has values at knots 0, 1/n, ..., 1 of each of its axes, where n is the number of cells of an axis.
-// Axes: the square root of the cosine between a direction and the normal; roughness; and for glass (ior - 1)
-// / (ior + 1), the square root of the reflectance at normal incidence, divided by kAlbedoLargestIor. A texel
-// (4 x uint32) holds a cell: two functions at its four corners, as unorm16. Word 0 and 1: the first function
-// at (cosine, roughness) (0, 0), (1, 0) and (0, 1), (1, 1); words 2 and 3: the second.
+// Axes: the square root of the cosine between a direction and the normal; roughness; and for glass the cube
+// root of (ior - 1) / (ior + 1) (the square root of the reflectance at normal incidence) divided by
+// kAlbedoLargestIor. A texel (4 x uint32) holds a cell: two functions at its four corners, as unorm16. Words 0
+// and 1: the first function at (cosine, roughness) (0, 0), (1, 0) and (0, 1), (1, 1); words 2 and 3: the
+// second.
 DUOLUX_CONST uint kAlbedoCells = 32u;       // of each axis of kAlbedoReflection and kAlbedoSheen
 DUOLUX_CONST uint kAlbedoGlassCells = 24u;  // of cosine and roughness of kAlbedoGlass
 DUOLUX_CONST uint kAlbedoIors = 17u;        // knots of its third axis, which has a slice of cells each

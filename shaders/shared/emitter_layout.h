@@ -29,7 +29,8 @@ struct DeviceEmitter {
     vec3 v1;
     float positionError;  // bound on the rounding error of a point on the triangle, as for hits
     vec3 v2;
-    uint triangle;   // index of the triangle in device memory; kSpecPlanes or with emission textures only
+    uint triangle;   // index of the triangle in device memory; only with kSpecPlanes, or where emission
+                     // varies over a triangle
     vec3 invisible;  // radiance; of a point emitter radiant intensity, W sr^-1
     float density;   // with which next-event estimation samples a point of the emitter, m^-2; of a point
                      // emitter the probability of choosing it

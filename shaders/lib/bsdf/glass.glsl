@@ -8,7 +8,7 @@
 #include "shaders/lib/bsdf/albedo.glsl"
 #include "shaders/lib/bsdf/microfacet.glsl"
 
-// What glass loses by single scattering on the side of wo (x), on the other side (y).
+// What glass loses by single scattering: on the side of wo (x) and on the other side (y).
 vec2 glassLoss(Bsdf bsdf, float cosine) {
     if (isThin(bsdf)) {
         vec2 single = reflectionAlbedo(cosine, bsdf.roughness);
@@ -48,34 +48,34 @@ vec3 refracted(vec3 wo, vec3 h, float eta) {
 
 vec3 otherSide(vec3 w) { return vec3(w.xy, -w.z); }
 
-// f for radiance that leaves along wo; wi is on the other side. `alpha`: of microfacets that are not smooth.
-vec3 glassTransmit(Bsdf bsdf, vec2 alpha, vec3 wo, vec3 wi) {
+// f of microfacets that are not smooth, for radiance that leaves along wo; wi is on the other side.
+vec3 glassTransmit(Bsdf bsdf, vec3 wo, vec3 wi) {
     if (isThin(bsdf)) {
         vec3 h = normalize(wo + otherSide(wi));
         float passed = 1.0 - dielectricFresnel(dot(wo, h), bsdf.eta);
-        return bsdf.baseColor * (passed * ggxEvaluate(alpha, wo, otherSide(wi)));
+        return bsdf.baseColor * (passed * ggxEvaluate(bsdf.alpha, wo, otherSide(wi)));
     }
     vec3 h = refractingNormal(wo, wi, bsdf.eta);
     float o = dot(wo, h);
     float i = dot(wi, h);
     if (o <= 0.0 || i >= 0.0) return vec3(0.0);
     float denominator = o + bsdf.eta * i;
-    float single = 4.0 * o * -i * ggxDistribution(alpha, h) * ggxVisibility(alpha, wo, wi) /
+    float single = 4.0 * o * -i * ggxDistribution(bsdf.alpha, h) * ggxVisibility(bsdf.alpha, wo, wi) /
                    max(denominator * denominator, 1e-12);
     return bsdf.baseColor * (single * (1.0 - dielectricFresnel(o, bsdf.eta)));
 }
 
 // Density of reaching wi, on the other side, by refraction at a normal from ggxNormal; without the probability of
 // refraction, which `passed` returns: 1 - Fresnel reflectance.
-float glassTransmitPdf(Bsdf bsdf, vec2 alpha, vec3 wo, vec3 wi, out float passed) {
+float glassTransmitPdf(Bsdf bsdf, vec3 wo, vec3 wi, out float passed) {
     vec3 h = isThin(bsdf) ? normalize(wo + otherSide(wi)) : refractingNormal(wo, wi, bsdf.eta);
     float o = dot(wo, h);
     float i = dot(wi, h);
     passed = 1.0 - dielectricFresnel(o, bsdf.eta);
-    if (isThin(bsdf)) return ggxVisibleDensity(alpha, wo, h) * 0.25;
+    if (isThin(bsdf)) return ggxVisibleDensity(bsdf.alpha, wo, h) * 0.25;
     if (o <= 0.0 || i >= 0.0) return 0.0;
     float denominator = o + bsdf.eta * i;
-    return ggxVisibleDensity(alpha, wo, h) * o * bsdf.eta * bsdf.eta * -i / max(denominator * denominator, 1e-12);
+    return ggxVisibleDensity(bsdf.alpha, wo, h) * o * bsdf.eta * bsdf.eta * -i / max(denominator * denominator, 1e-12);
 }
 
 #endif

@@ -35,7 +35,7 @@ float ggxDistribution(vec2 alpha, vec3 h) {
     return 1.0 / (kPi * alpha.x * alpha.y * scaled * scaled);
 }
 
-// cos / G1, up to the factor 2: Smith's masking is G1 = 2 cos / (cos + smithTerm).
+// The cosine of w times 1 + 2 Lambda: Smith's masking is G1 = 2 cos / (cos + smithTerm).
 float smithTerm(vec2 alpha, vec3 w) {
     vec2 stretched = alpha * w.xy;
     return sqrt(dot(stretched, stretched) + w.z * w.z);
@@ -51,7 +51,7 @@ float ggxEvaluate(vec2 alpha, vec3 wo, vec3 wi) {
     return ggxDistribution(alpha, normalize(wo + wi)) * ggxVisibility(alpha, wo, wi);
 }
 
-// Density per steradian of ggxNormal, times 4 (wo . h).
+// Density per steradian of ggxNormal, over wo . h.
 float ggxVisibleDensity(vec2 alpha, vec3 wo, vec3 h) {
     return ggxDistribution(alpha, h) * 2.0 / (wo.z + smithTerm(alpha, wo));
 }
@@ -74,7 +74,5 @@ vec3 ggxNormal(vec2 alpha, vec3 wo, vec2 u) {
 
 // The result may be below the horizon, where nothing is reflected.
 vec3 mirrored(vec3 wo, vec3 h) { return 2.0 * dot(wo, h) * h - wo; }
-
-vec3 ggxSample(vec2 alpha, vec3 wo, vec2 u) { return mirrored(wo, ggxNormal(alpha, wo, u)); }
 
 #endif
