@@ -108,14 +108,17 @@ void requireDeviceMemory(const DeviceInfo& device, std::uint64_t bytes, const Sc
 DeviceScene uploadScene(const Device& device, const Scene& scene,
                         Integrator integrator = Integrator::kPathTracer, const TuningChoice& choice = {});
 
-/// Brings the device up to date with a scene of the same geometry whose materials, reflectances and point
-/// emitters may be others, and the integrator, too. Uploads only the records of materials, their textures and
-/// emitters if the same triangles emit as before and without textures, the materials use the same images and
-/// parts of vertices, no surfaces coincide (DeviceScene::hasPlanes), and light passes unchanged
-/// through all surfaces (kTransparencyIdentity, which requires a tree over the emitters) before and after, or
-/// neither. Otherwise uploads all again: the tree over all triangles is kept on the host, and that over the
-/// emitters is built; with Layout::kRayQuery the driver builds its whole structure again. Throws as
-/// uploadScene; the device then has the scene of before.
+/// Brings the device up to date with a scene of the same geometry, which may have other materials,
+/// reflectances and point emitters, and with the integrator, which may be another one. Uploads only the
+/// records of materials, textures and emitters if all of this holds:
+///   - the same triangles emit, and emission does not vary over a triangle, before and after;
+///   - the materials use the same images and the same parts of vertices;
+///   - no surfaces coincide (DeviceScene::hasPlanes);
+///   - light passes unchanged through all surfaces (kTransparencyIdentity, which requires a tree over the
+///     emitters) both before and after, or neither.
+/// Otherwise uploads everything again. The tree over all triangles is kept on the host, and only that over
+/// the emitters is built; with Layout::kRayQuery the driver builds its whole structure again. Throws like
+/// uploadScene; the device then keeps the previous scene.
 void updateScene(DeviceScene& deviceScene, const Device& device, const Scene& scene, Integrator integrator);
 
 }  // namespace duolux

@@ -13,15 +13,15 @@
 
 namespace duolux {
 
-/// Elements of numbers, where they are in a buffer.
+/// The elements of an accessor, read from where they are in a buffer.
 class GltfAccessor {
   public:
-    /// Of the accessor that `index` is the index of. `types` names those that it may have: "VEC3/VEC4".
+    /// `index`: a node that holds the index of an accessor. `types` names the allowed types: "VEC3 or VEC4".
     /// Throws InputError.
     GltfAccessor(const GltfDocument& document, GltfBuffers& buffers, const JsonNode& index,
                  std::string_view types);
 
-    /// Of numbers that are already decoded, `components` per element.
+    /// The elements are numbers that are already decoded, `components` per element.
     GltfAccessor(const JsonNode& node, std::vector<float> values, std::uint32_t components);
 
     /// For messages.

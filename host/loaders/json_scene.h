@@ -6,8 +6,8 @@
 
 namespace duolux {
 
-/// Reads the JSON scene format and the meshes it names. Luminaires that are not part of a mesh may be out of
-/// view. Throws InputError.
+/// Reads the JSON scene format and the meshes it names. The triangles of "lights" are not among those that an
+/// automatic camera frames. Throws InputError.
 SceneFile readJsonScene(const std::filesystem::path& path, Reading reading);
 
 }  // namespace duolux

@@ -13,9 +13,9 @@ namespace duolux {
 ///   - for another camera, display or settings, only parameters, and the integrator's table of emitters;
 ///   - for other reflectances, materials or point emitters, their records.
 /// It uploads the triangles again if the set of emitting triangles changes, if materials use other images or
-/// begin or cease to use tangents, if emission has textures, if the scene begins or ceases to
-/// transmit light unchanged through all surfaces, or, where surfaces coincide, at any change of materials,
-/// reflectances, point emitters or the integrator. The tree over all triangles is built once, except that of
+/// begin or cease to use tangents, if emission varies over a triangle, if light begins or ceases to pass
+/// unchanged through all surfaces, or, where surfaces coincide, at any change of materials, reflectances,
+/// point emitters or the integrator. The tree over all triangles is built once, except that of
 /// the driver (Layout::kRayQuery), which is built again with the triangles. See updateScene.
 class Renderer {
   public:

@@ -23,7 +23,7 @@ struct MaterialEnergy {
     bool grows() const;
 };
 
-/// `albedo`: the base colour, which colours of vertices can only make smaller.
+/// `albedo`: meanAlbedo(material), which colours of vertices and images can only make smaller.
 MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo);
 
 /// Totals over the emitters of a scene.

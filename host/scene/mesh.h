@@ -21,7 +21,7 @@ struct PlacedPointEmitter {
 /// The content of a mesh file: triangles in object space, possibly including some with zero area.
 struct Mesh {
     std::filesystem::path source;
-    std::vector<std::filesystem::path> files;  ///< all files read: the mesh and its MTL files
+    std::vector<std::filesystem::path> files;  ///< all files read: the mesh, and those that it names
     Geometry geometry;                         ///< positions are relative to `origin`
     glm::dvec3 origin{0.0};  ///< not 0 if the file's coordinates are far from the origin for their extent
     std::vector<Material> materials;  ///< used by faces; Texture::image is an index into `images`
@@ -33,7 +33,7 @@ struct Mesh {
     std::uint64_t bytes = 0;  ///< size of the file
 };
 
-/// Name of the material of faces that come before any `usemtl`.
+/// Name of the material of faces for which the file names none.
 inline const std::string kDefaultMaterialName = "default";
 
 /// Largest magnitude of coordinates relative to the scene's origin, before and after a transform: squared

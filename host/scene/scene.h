@@ -120,7 +120,7 @@ struct Scene {
 struct LoadedScene : Scene {
     RenderSettings settings;
     std::vector<ImageSource> imageSources;     ///< of `images`
-    std::vector<Warning> warnings;             ///< lamp added, missing MTL, degenerate triangles ...
+    std::vector<Warning> warnings;             ///< lamp added, missing file, degenerate triangles ...
     std::vector<std::filesystem::path> files;  ///< all that were read
     std::uint64_t meshBytes = 0;               ///< size of those that hold meshes
 };

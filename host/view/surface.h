@@ -24,7 +24,7 @@ class Surface {
     struct Triangle {
         glm::vec3 corner, edge1, edge2;
         std::uint32_t material;
-        bool framed;  ///< a camera should show it; false for outliers, and for luminaires outside of meshes
+        bool framed;  ///< a camera should show it; false for outliers, and for emitters outside of meshes
 
         glm::vec3 areaVector() const { return 0.5f * glm::cross(edge1, edge2); }
     };

@@ -112,9 +112,9 @@ void continueConnection(inout Connection connection, inout LaneSums sums, uvec2 
     }
     Radiance2 arriving = connection.arriving;
     if (found) {
-        // Surfaces transmit the invisible component unchanged and block the visible one.
-        bool transmits = kCameraTransparency == kTransparencyIdentity;
-        arriving = Radiance2(transmits ? arriving.invisible : vec3(0.0), vec3(0.0));
+        // The invisible component passes unchanged through surfaces, which block the visible one.
+        bool passes = kCameraTransparency == kTransparencyIdentity;
+        arriving = Radiance2(passes ? arriving.invisible : vec3(0.0), vec3(0.0));
     }
     arriving = scaled(arriving, vec3(1.0 / connection.survival));
     if (maxComponent(arriving.invisible + arriving.visible) != 0.0) splat(sums, arriving, connection, stream);

@@ -101,7 +101,7 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     vec3 toEmitter = -path.segment.direction;
     float adjoint = materialScatters(hit.material, hit.front) ? shadingAdjoint(hit.point, toEmitter) : 0.0;
     Radiance2 scattered = scaled(matrixApply(opaqueOf(hit.materialIndex), path.flux),
-                                 hit.transmittance * (hit.coverage * adjoint));
+                                 hit.unabsorbed * (hit.coverage * adjoint));
     BsdfFrame frame = frameOf(hit.point, hit.bsdf);
     CameraConnection camera = connectToCamera(params.camera, hit.point.position);
     vec3 f = bsdfEvaluate(hit.bsdf, frame, toEmitter, camera.direction, kModeImportance);

@@ -53,7 +53,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     SurfaceHit hit = meetTriangle(path.segment, ray, tri, -path.segment.direction);
     ReflectanceMatrix onSegment = importanceOf(path);
     ReflectanceMatrix w = onSegment;
-    if (kCoverage || kAttenuates) w = scaled(w, hit.transmittance * hit.coverage);
+    if (kCoverage || kAttenuates) w = scaled(w, hit.unabsorbed * hit.coverage);
     vec3 wo = -path.segment.direction;
     if (kLayerNormal && onCameraSegment(path)) layers.normal = hit.point.shadingNormal;
     if (kEmittingTriangles) collectEmission(received, path, hit, w, ray.t, tri.primitive);

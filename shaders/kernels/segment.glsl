@@ -13,7 +13,7 @@ struct SurfaceHit {
     float cosine;        // between the ray and the normal of the front
     vec3 emissionTexel;  // scales what the surface emits
     float coverage;      // how much of the surface is there
-    vec3 transmittance;  // of the segment, inside glass
+    vec3 unabsorbed;     // the fraction of the light on the segment that glass does not absorb
 };
 
 // Scales the parameters of a material by its textures.
@@ -85,12 +85,12 @@ SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewe
     hit.emissionTexel = values.emission.xyz * emissionColour(hit.material.flags, colour);
     hit.bsdf = bsdfOf(hit.material, hit.front);
     hit.coverage = kCoverage ? coverageOf(hit.material) : 1.0;
-    hit.transmittance = vec3(1.0);
+    hit.unabsorbed = vec3(1.0);
     if (kAttenuates) {
         // Glass is known at either end of a segment, so that both integrators find the same.
         bool fromInside = maxComponent(segment.attenuation) > 0.0;
         vec3 attenuation = fromInside || hit.front ? segment.attenuation : hit.bsdf.attenuation;
-        hit.transmittance = exp(-attenuation * ray.t);
+        hit.unabsorbed = exp(-attenuation * ray.t);
     }
     // The segment starts at a surface in the same plane, or has crossed one there.
     bool behindOthers = kPlanes && segment.order != kNoTriangle && segment.t == ray.t;
