@@ -1,5 +1,6 @@
 #include "host/device_scene/material_records.h"
 
+#include <algorithm>
 #include <tuple>
 
 namespace duolux {
@@ -46,7 +47,7 @@ std::vector<shared::DeviceMaterial> makeMaterialRecords(const Scene& scene) {
         d.baseColor = baseColor;
         d.metallic = metallic;
         d.roughness = roughness;
-        d.ior = ior;
+        d.ior = std::max(ior, shared::kSmallestIor);
         d.specular = specular;
         d.specularColor = specularColor;
         d.transmission = transmission;

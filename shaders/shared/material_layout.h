@@ -40,6 +40,9 @@ DUOLUX_CONST uint kLobesThatTransmit = kLobeGlass;  // scatter to the other side
 
 // Microfacets whose GGX alpha (the square of the roughness) is below this are smooth.
 DUOLUX_CONST float kSmoothAlpha = 1e-3f;
+// The smallest index of refraction in a record; its reflectance at normal incidence is 2.5e-9. At exactly 1,
+// all microfacets refract light in one direction, which has no density: rough glass would be black.
+DUOLUX_CONST float kSmallestIor = 1.0001f;
 
 #ifdef __cplusplus
 struct DeviceMaterial {
@@ -52,7 +55,7 @@ struct DeviceMaterial {
     vec3 specularColor;
     float specular;
     float transmission;
-    float ior;
+    float ior;  // at least kSmallestIor
     float clearcoat;
     float clearcoatRoughness;
     vec3 sheenColor;

@@ -122,6 +122,16 @@ INSTANTIATE_TEST_SUITE_P(Often, WhiteFurnace, testing::ValuesIn(oftenCases(white
 INSTANTIATE_TEST_SUITE_P(Nightly, WhiteFurnace, testing::ValuesIn(nightlyCases(whiteCases())),
                          [](const auto& test) { return test.param.name; });
 
+/// Microfacets that do not bend light.
+INSTANTIATE_TEST_SUITE_P(AirInAir, WhiteFurnace,
+                         testing::Values(caseOf("RoughGlassWithTheIndexOfAir",
+                                                [](Material& m) {
+                                                    m.specular = m.transmission = 1.0f;
+                                                    m.roughness = 0.5f;
+                                                    m.ior = 1.0f;
+                                                })),
+                         [](const auto& test) { return test.param.name; });
+
 /// As whiteCases(), but with colours, and without smooth surfaces, which light paths do not show.
 std::vector<MaterialCase> rougherCases() {
     std::vector<MaterialCase> cases = whiteCases();
