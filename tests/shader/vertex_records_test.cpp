@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/shader/inputs.h"
 #include "tests/shader/oracles.h"
 #include "tests/support/scene_builder.h"
@@ -151,48 +149,6 @@ TEST(VertexRecords, ValuesAreInterpolated) {
         EXPECT_LT(o.z, 1e-5f);  // where the tangents almost cancel
         EXPECT_LT(o.w, 1e-6f);
     }
-}
-
-/// n x n quads whose corners share indices, as in glTF.
-Scene grid(std::uint32_t n) {
-    Scene scene;
-    Geometry& geometry = scene.geometry;
-    for (std::uint32_t y = 0; y <= n; ++y) {
-        for (std::uint32_t x = 0; x <= n; ++x) {
-            const glm::vec2 uv = glm::vec2(x, y) / static_cast<float>(n);
-            geometry.positions.emplace_back(uv, 0.1f * std::sin(9.0f * uv.x));
-            geometry.normals.push_back(glm::normalize(glm::vec3(-0.9f * std::cos(9.0f * uv.x), 0.0f, 1.0f)));
-            geometry.uvs.push_back(uv);
-        }
-    }
-    for (std::uint32_t y = 0; y < n; ++y) {
-        for (std::uint32_t x = 0; x < n; ++x) {
-            const std::uint32_t i = y * (n + 1) + x;
-            geometry.triangles.emplace_back(i, i + 1, i + n + 2);
-            geometry.triangles.emplace_back(i, i + n + 2, i + n + 1);
-        }
-    }
-    geometry.normalIndices = geometry.uvIndices = geometry.triangles;
-    geometry.materials.assign(geometry.triangles.size(), 0);
-    duolux::Material material;
-    material.textures = {{MaterialInput::kBaseColor, {}}};
-    scene.materials = {material};
-    return scene;
-}
-
-TEST(VertexRecords, SharedCornersAreOneVertex) {
-    Scene scene = grid(20);
-    const std::vector<TrianglePair> pairs = pairTriangles(scene.geometry, allTriangles(scene.geometry));
-    EXPECT_EQ(makeVertexRecords(scene.geometry, pairs, vertexNeeds(scene)).vertices.size(), 21u * 21u);
-    // Tangents are computed if a material needs them, and do not separate the vertices of a smooth mapping.
-    scene.materials[0].anisotropy = 1.0f;
-    const VertexRecords records = makeVertexRecords(scene.geometry, pairs, vertexNeeds(scene));
-    EXPECT_EQ(records.vertices.size(), 21u * 21u);
-    for (const shared::DeviceVertex& vertex : records.vertices)
-        EXPECT_NE(vertex.tangent & shared::kTangentKnown, 0u);
-    // Nothing needs texture coordinates.
-    scene.materials[0] = {};
-    EXPECT_TRUE(makeVertexRecords(scene.geometry, pairs, vertexNeeds(scene)).vertices.empty());
 }
 
 }  // namespace

@@ -56,6 +56,21 @@ TEST(VertexRecords, ATexturedTriangleTakes64Bytes) {
     }
 }
 
+TEST(VertexRecords, SharedCornersAreOneVertex) {
+    Scene scene = sheet(20);
+    const std::vector<TrianglePair> pairs = pairTriangles(scene.geometry, allTriangles(scene.geometry));
+    EXPECT_EQ(makeVertexRecords(scene.geometry, pairs, vertexNeeds(scene)).vertices.size(), 21u * 21u);
+    // Tangents are computed if a material needs them, and do not separate the vertices of a smooth mapping.
+    scene.materials[0].anisotropy = 1.0f;
+    const VertexRecords records = makeVertexRecords(scene.geometry, pairs, vertexNeeds(scene));
+    EXPECT_EQ(records.vertices.size(), 21u * 21u);
+    for (const shared::DeviceVertex& vertex : records.vertices)
+        EXPECT_NE(vertex.tangent & shared::kTangentKnown, 0u);
+    // Nothing needs texture coordinates.
+    scene.materials[0] = {};
+    EXPECT_TRUE(makeVertexRecords(scene.geometry, pairs, vertexNeeds(scene)).vertices.empty());
+}
+
 /// A cube of shared positions and texture coordinates, but a normal for each face: 24 vertices; without
 /// normals, the faces share them, unless they have tangents.
 TEST(VertexRecords, VerticesDifferInNormalOrTextureCoordinatesOrTangent) {
