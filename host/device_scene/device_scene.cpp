@@ -82,7 +82,7 @@ struct MaterialsAndEmitters {
         }
         transport.textureGroups = lookups.groups;
         if (coloursScaleEmission(scene)) transport.textureGroups |= 1u << shared::kGroupEmissionColour;
-        // Neither emission nor normals vary over a surface.
+        // The closed form requires that neither emission nor normals vary over a surface.
         if (transport.emissionIsScaled() || transport.hasTextures(shared::kGroupNormal))
             transport.closedFormApplies = false;
     }
@@ -93,8 +93,8 @@ struct MaterialsAndEmitters {
     }
 };
 
-/// Emitters that coincide with other surfaces, or whose emission varies, need to know their triangle
-/// in device memory; the latter have its corners in the same order.
+/// The records of emitters that coincide with other surfaces, or whose emission varies, hold the index of
+/// their triangle in device memory. Where emission varies, they have its corners in the same order.
 void noteTriangles(MaterialsAndEmitters& prepared, const Geometry& geometry, const SurfacePlanes& surfaces,
                    const SceneTrees& trees) {
     const bool textured = prepared.transport.emissionVaries();

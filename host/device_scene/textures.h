@@ -29,8 +29,7 @@ struct AtlasImage {
 struct AtlasPlan {
     std::vector<AtlasImage> images;
     std::uint64_t texels = 0;
-    /// Names the number of images that are smaller than they should be, and the largest; empty if there are
-    /// none.
+    /// Says how many images were shrunk, and which one was shrunk most; empty if none was.
     std::string warning;
 
     bool operator==(const AtlasPlan&) const = default;

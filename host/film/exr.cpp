@@ -153,7 +153,7 @@ void encodeExr(const ImageRows& rows, const ImageOptions& options, FileWriter& o
 
 namespace {
 
-/// Where an image of this size has the pixels of a data window: the number of pixels before (0, 0).
+/// The size of a data window. `shift`: the index of its first pixel, counted from the pixel (0, 0).
 struct Window {
     std::uint32_t width, height;
     std::ptrdiff_t shift;

@@ -114,7 +114,7 @@ class HdrReader {
         readPixels(row);
     }
 
-    /// Runs (a count above 128, a value), and values (a count, values).
+    /// A channel consists of runs (128 + length, the value) and of literals (their number, the values).
     void readChannel(std::vector<Rgbe>& row, std::size_t channel) {
         for (std::size_t x = 0; x < row.size();) {
             const std::size_t code = byte();
@@ -130,7 +130,8 @@ class HdrReader {
         }
     }
 
-    /// Pixels; 1, 1, 1, n repeats the one before, n times, and further such ones count in higher bytes.
+    /// A row of pixels. The pixel 1, 1, 1, n repeats the previous one n times; in each such pixel that
+    /// follows directly, n counts 256 times as much.
     void readPixels(std::vector<Rgbe>& row) {
         unsigned shift = 0;
         for (std::size_t x = 0; x < row.size();) {

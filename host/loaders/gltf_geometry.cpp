@@ -124,7 +124,7 @@ void GltfGeometry::addVertices(const GltfPrimitive& primitive, const GltfPlaceme
     }
 }
 
-/// Before the positions are added.
+/// To be called before the positions are added.
 void GltfGeometry::addColours(const GltfPrimitive& primitive) {
     const auto append = [&](auto& items, const auto& added, const auto& value) {
         if (added.empty()) return;
@@ -135,7 +135,7 @@ void GltfGeometry::addColours(const GltfPrimitive& primitive) {
     append(geometry_.alphas, primitive.alphas, 1.0f);
 }
 
-/// Before the tangents are added.
+/// To be called before the tangents are added.
 void GltfGeometry::addUvs(const GltfPrimitive& primitive) {
     if (primitive.uvs.empty() && primitive.secondUvs.empty() && primitive.tangents.empty()) return;
     const std::size_t present = geometry_.uvs.size(), count = present + primitive.positions.size();
@@ -149,7 +149,7 @@ void GltfGeometry::addUvs(const GltfPrimitive& primitive) {
     if (!primitive.tangents.empty()) pad(geometry_.tangents, present, glm::vec4(0.0f));
 }
 
-/// After everything else.
+/// To be called last.
 void GltfGeometry::addTriangles(const GltfPrimitive& primitive, std::uint32_t material) {
     const std::size_t vertices = primitive.positions.size();
     const auto first = [&](std::size_t end) { return static_cast<std::uint32_t>(end - vertices); };

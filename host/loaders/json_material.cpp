@@ -109,7 +109,7 @@ class JsonMaterialReader {
         if (const auto mode = value->find("mode")) {
             material_.alpha.mode = mode->choice<AlphaMode>();
         } else if (material_.alpha.mode == AlphaMode::kOpaque) {
-            // An alpha is given to be used.
+            // Whoever states an alpha wants it to have an effect.
             if (reader.has({"value"})) material_.alpha.mode = AlphaMode::kBlend;
             if (reader.has({"cutoff"})) material_.alpha.mode = AlphaMode::kMask;
         }

@@ -14,7 +14,7 @@ namespace {
 /// Blender writes Ks 0.5 for every material: up to this, "illum 2" and "Ks" alone do not mean a shiny
 /// surface.
 constexpr double kUsualSpecular = 0.5;
-/// Of a colour from grey.
+/// The largest difference between the channels of a colour that counts as grey.
 constexpr double kUnnoticedHue = 0.1;
 /// Diffuse colours up to this are black.
 constexpr double kBlack = 0.02;
@@ -146,7 +146,7 @@ class MtlMapper {
     void mapGlass() {
         removeTexture(material_, MaterialInput::kBaseColor);
         if (hasImage(MtlImage::kDiffuse)) unused_.push_back("map_Kd");
-        // White glass whose file has a grey Kd is what was meant.
+        // A grey Kd is not missed: such glass is meant to be white.
         if (!values_.filter && values_.diffuse && isColoured(*values_.diffuse)) unused_.push_back("Kd");
         if (hasImage(MtlImage::kSpecular)) unused_.push_back("map_Ks");
         if (values_.metallic.value_or(0.0) > 0.0 || hasImage(MtlImage::kMetallic)) unused_.push_back("Pm");

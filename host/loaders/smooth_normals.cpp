@@ -178,7 +178,7 @@ class AngleSmoother {
     double smallestCosine_;
     std::vector<glm::dvec3> faceNormals_;  ///< unit, or 0 of triangles without area
     std::vector<bool> isSmooth_;
-    // Of the current vertex; per corner, but `edges_`. What belongs to a group is at its root.
+    // Of the current vertex. All but `edges_` have an item per corner; a group has that of its root.
     std::vector<std::uint32_t> parents_, sizes_, slots_;
     std::vector<glm::dvec3> sums_;
     std::vector<Edge> edges_;

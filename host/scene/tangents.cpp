@@ -31,7 +31,7 @@ class TangentTriangle {
         const glm::dvec3 edge1 = position(1) - position(0), edge2 = position(2) - position(0);
         const glm::dvec2 uv1 = uv(1) - uv(0), uv2 = uv(2) - uv(0);
         const double area = uv1.x * uv2.y - uv1.y * uv2.x;
-        // v points down the image, so that texture coordinates seen as in the image turn the other way round.
+        // v points down the image, so that the sign of the area is opposite to the turn seen in the image.
         orientation_ = area < 0.0 ? 1 : area > 0.0 ? -1 : 0;
         gradient_ = (edge1 * uv2.y - edge2 * uv1.y) * (area < 0.0 ? -1.0 : 1.0);
         const bool smooth =
@@ -101,7 +101,7 @@ CornerTangents computeTangents(const Geometry& geometry, const std::vector<bool>
             out.indices[i][k] = group;
         }
     }
-    // They have no tangents of their own, but the same as their neighbours.
+    // Triangles whose texture coordinates have no area take the tangents of their neighbours.
     for (const std::uint32_t i : withoutArea) {
         const TangentTriangle triangle(geometry, i);
         for (int k = 0; k < 3; ++k) {

@@ -63,7 +63,7 @@ vec3 anisotropyTangent(Triangle tri, uint triangle, vec2 barycentric, vec3 front
     return dot(tangent, tangent) > 1e-6 ? normalize(tangent) : otherwise;
 }
 
-// `viewer`: unit, from the point towards who looks at it.
+// `viewer`: unit, from the point towards the viewer.
 SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewer) {
     SurfaceHit hit;
     hit.materialIndex = tri.materialFlags & kMaterialMask;
@@ -87,7 +87,7 @@ SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewe
     hit.coverage = kCoverage ? coverageOf(hit.material) : 1.0;
     hit.unabsorbed = vec3(1.0);
     if (kAttenuates) {
-        // Glass is known at either end of a segment, so that both integrators find the same.
+        // The glass at either end of the segment counts, so that both integrators find the same.
         bool fromInside = maxComponent(segment.attenuation) > 0.0;
         vec3 attenuation = fromInside || hit.front ? segment.attenuation : hit.bsdf.attenuation;
         hit.unabsorbed = exp(-attenuation * ray.t);

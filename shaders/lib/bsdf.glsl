@@ -2,8 +2,8 @@
 // extensions): sheen on clearcoat on a mixture of metal, glass and a diffuse surface under a dielectric's reflection.
 // kLobes has the bits of the lobes that any material of the scene has, so that a scene does not pay for others.
 //
-// A layer takes from those below it what it reflects towards the view: that is not symmetric, but the same function in
-// both modes. Every lobe by itself is reciprocal.
+// A layer reduces the light of those below it by what it reflects towards the view. This is not reciprocal, but both
+// modes evaluate the same function. Every lobe by itself is reciprocal.
 #ifndef DUOLUX_LIB_BSDF_GLSL
 #define DUOLUX_LIB_BSDF_GLSL
 
@@ -27,8 +27,8 @@ float metalFraction(Bsdf bsdf) { return kMetal ? bsdf.metallic : 0.0; }
 float glassFraction(Bsdf bsdf) { return kGlass ? (1.0 - metalFraction(bsdf)) * bsdf.transmission : 0.0; }
 float diffuseFraction(Bsdf bsdf) { return 1.0 - metalFraction(bsdf) - glassFraction(bsdf); }
 
-// What the layers on the base let through to a view on the outside, whose cosines to the shading normal and to that of
-// the clearcoat are given.
+// The fraction that the layers on the base let through to a view on the outside. `cosine`, `toCoat`: of the view to the
+// shading normal and to that of the clearcoat.
 float throughLayers(Bsdf bsdf, float cosine, float toCoat) {
     float through = 1.0;
     if (kSheen) through *= 1.0 - sheenAlbedo(bsdf, cosine);
