@@ -63,7 +63,9 @@ Bsdf bsdfOf(Material material, bool front) {
     bsdf.specular = material.specular;
     bsdf.transmission = material.transmission;
     bsdf.eta = thin || front ? material.ior : 1.0 / material.ior;
-    bsdf.flags = (thin ? kBsdfThin : 0u) | (front ? kBsdfOutside : 0u);
+    // What light does not enter has no inside: its layers lie on both sides (glTF 2.0, section 3.9.5).
+    bool outside = front || material.transmission <= 0.0;
+    bsdf.flags = (thin ? kBsdfThin : 0u) | (outside ? kBsdfOutside : 0u);
     bsdf.clearcoat = material.clearcoat;
     bsdf.clearcoatRoughness = material.clearcoatRoughness;
     bsdf.sheenColor = material.sheenColor;

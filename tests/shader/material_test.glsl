@@ -67,6 +67,17 @@ TEST_N(SidesOfGlass, 1) {
     EXPECT_TRUE(isThin(bsdfOf(material, false)));
 }
 
+// Layers such as a clearcoat lie only on the outside, which both sides of an opaque sheet are.
+TEST_N(OpaqueSheetsHaveNoInside, 1) {
+    Material material = plainMaterial();
+    material.transmission = 0.0;
+    EXPECT_TRUE(isOutside(bsdfOf(material, true)));
+    EXPECT_TRUE(isOutside(bsdfOf(material, false)));
+    material.transmission = 0.5;
+    EXPECT_TRUE(isOutside(bsdfOf(material, true)));
+    EXPECT_FALSE(isOutside(bsdfOf(material, false)));
+}
+
 // KHR_materials_anisotropy: alpha along the tangent grows from roughness^2 to 1 with the square of the strength.
 TEST_N(AnisotropyStretchesAlongTheTangent, 1) {
     Material material = plainMaterial();

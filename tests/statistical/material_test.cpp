@@ -206,6 +206,29 @@ INSTANTIATE_TEST_SUITE_P(Often, MaterialPair, testing::ValuesIn(oftenCases(rough
 INSTANTIATE_TEST_SUITE_P(Nightly, MaterialPair, testing::ValuesIn(nightlyCases(rougherCases())),
                          [](const auto& test) { return test.param.name; });
 
+/// A black sheet with a smooth clearcoat, of index 1.5, in uniform light: both sides reflect 4 % at normal
+/// incidence.
+TEST(Clearcoat, LiesOnBothSidesOfAnOpaqueSheet) {
+    SceneBuilder builder;
+    Material wall;
+    wall.name = "wall";
+    wall.baseColor = glm::vec3(0.0f);
+    wall.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
+    builder.box({-9, -9, -9}, {9, 9, 9}, Facing::kInward, builder.add(wall));
+    Material varnished = white();
+    varnished.baseColor = glm::vec3(0.0f);
+    varnished.clearcoat = 1.0f;
+    builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, builder.add(varnished));
+    LoadedScene& scene = builder.scene;
+    scene.reflectance = preset("global");
+    scene.settings.width = scene.settings.height = 8;
+    for (const float side : {1.0f, -1.0f}) {
+        scene.camera = {{0, 0, 5.0f * side}, {0, 0, 0}, {0, 1, 0}, 0.2f};
+        EXPECT_NEAR(meanVisible(render(device(), scene).film.resolve()), 0.04, 1e-4)
+            << "from z = " << 5 * side;
+    }
+}
+
 /// A parallel plate of smooth glass without absorption in uniform light behind it: all inner reflections
 /// together transmit (1 - R) / (1 + R) at normal incidence, where R = ((n - 1) / (n + 1))^2 is that of one
 /// interface.

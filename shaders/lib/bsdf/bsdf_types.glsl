@@ -34,7 +34,7 @@ struct Bsdf {
 };
 
 const uint kBsdfThin = 1u;     // glass is a wall without thickness
-const uint kBsdfOutside = 2u;  // wo is on the side of the triangle's front
+const uint kBsdfOutside = 2u;  // wo is on the outside: the triangle's front or, if light does not enter, either side
 
 bool isThin(Bsdf bsdf) { return (bsdf.flags & kBsdfThin) != 0u; }
 bool isOutside(Bsdf bsdf) { return (bsdf.flags & kBsdfOutside) != 0u; }
