@@ -9,7 +9,8 @@
 #include "shaders/shared/emitter_layout.h"
 
 uvec4 fetchEmitterTexel(uint index);
-// What textures, colours of vertices and coverage make of the emission at a point of a triangle in device memory, a factor.
+// The factor by which textures, colours of vertices and coverage scale the emission at a point of a triangle in device
+// memory.
 vec3 emissionTexel(uint triangle, vec2 barycentric);
 
 // Whether emission differs between the points of a triangle.
