@@ -1,7 +1,4 @@
-# cycles_scene.py: renders a Duolux scene under `global` with Cycles, in Blender 3.4 or later:
-#     blender -b --factory-startup -P cycles_scene.py -- SCENE.json OUT.exr SPP SEED SIZE BOUNCES FREE
-# SIZE: pixels of each side. BOUNCES: scattering events on a path. FREE: bounces before Russian roulette may
-# end a path, not counting the first scattering event (Cycles' min_light_bounces); its default 0 matches Duolux.
+# duolux_json.py: a JSON scene of Duolux with diffuse surfaces, in Blender.
 #
 # Emitters must be rectangles. They become area lights just in front of their surfaces, because emitting
 # meshes are 1-5 % too dark at grazing angles in Cycles 3.4; its area lights agree with Lambert's formula.
@@ -48,7 +45,7 @@ def add_lamp(mesh, radiance, seen):
     corner, *others = (v.co for v in mesh.vertices)
     edge1, edge2, diagonal = sorted((p - corner for p in others), key=lambda edge: edge.length)
     if (edge1 + edge2 - diagonal).length > 1e-4 * diagonal.length or len(others) != 3:
-        sys.exit(f"cycles_scene.py: {mesh.name} emits and is no rectangle")
+        sys.exit(f"duolux_json.py: {mesh.name} emits and is no rectangle")
     normal = mesh.polygons[0].normal
     lamp = bpy.data.lights.new(mesh.name, "AREA")
     lamp.shape = "RECTANGLE"
@@ -62,7 +59,6 @@ def add_lamp(mesh, radiance, seen):
 
 def load(file):
     """Replaces Blender's scene by that of the file."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
     with open(file) as text:
         scene = json.load(text)
     materials = {}
@@ -89,32 +85,3 @@ def load(file):
     back = (position - Vector(camera["target"])).normalized()
     right = Vector(camera["up"]).cross(back).normalized()
     bpy.context.scene.camera = add_object("camera", lens, position, right, back.cross(right), back)
-
-
-def render(output, spp, seed, size, bounces, free):
-    scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    scene.render.resolution_x = scene.render.resolution_y = size
-    scene.render.resolution_percentage = 100
-    scene.render.use_compositing = scene.render.use_sequencer = False
-    scene.render.image_settings.file_format = "OPEN_EXR"
-    scene.render.image_settings.color_mode = "RGB"
-    scene.render.image_settings.color_depth = "32"
-    scene.render.filepath = output
-    scene.view_settings.view_transform = "Raw"
-    cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.samples, cycles.seed = spp, seed
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.max_bounces = cycles.diffuse_bounces = bounces - 1  # the first scattering event is not a bounce for Cycles
-    cycles.min_light_bounces = free
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
-    cycles.pixel_filter_type = "BOX"  # one pixel wide
-    if hasattr(cycles, "use_light_tree"):  # there is one emitter
-        cycles.use_light_tree = False
-    bpy.ops.render.render(write_still=True)
-
-
-scene_file, output_file, *numbers = sys.argv[sys.argv.index("--") + 1:]
-load(os.path.abspath(scene_file))
-render(os.path.abspath(output_file), *map(int, numbers))

@@ -1,18 +1,23 @@
 #!/usr/bin/env bash
-# cycles.sh speed|error [DUOLUX]: compares Duolux with Blender's Cycles on the CPU. Both render the same
+# cycles.sh speed|error [DUOLUX [SCENE...]]: compares Duolux with Blender's Cycles on the CPU. Both render the same
 # scenes under `global` with 16 scattering events, in turns and on all cores. Prints Markdown tables. Needs
-# Debian's `blender`; takes about 6 minutes on two cores.
+# Debian's `blender` (and python3-numpy for glTF); takes about 6 minutes on two cores.
+#
+# Scenes are glTF files with a camera and emitting meshes, such as those of lit_model.py and materials.py, or diffuse
+# JSON scenes; by default the Cornell box and two spheres of 500,000 triangles.
 #
 # speed: seconds of rendering alone and of the whole process: lowest, **median** and highest of kRuns.
 # error: first checks that both converge to the same image; then compares the seconds of rendering to the RMSE
 #        that Cycles reaches at several spp (Duolux: interpolated between its own, on log scales). The RMSE is
 #        measured against a reference by either program, with seeds that no other render has. A bias of
-#        either program would make the two results differ.
+#        either program would make the two results differ. Where their materials differ, only the last column
+#        means something: each program's RMSE to its own reference.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 
 readonly kMode=${1:-}
 readonly kDuolux=$(readlink -f "${2:-build/duolux}")
+readonly kScripts=tests/peers
 readonly kBounces=16
 readonly kRuns=3
 
@@ -22,11 +27,16 @@ fail() {
 }
 [[ $kMode == speed || $kMode == error ]] || fail "expected \`speed\` or \`error\`, then the program (build/duolux)"
 [[ -x $kDuolux ]] || fail "${2:-build/duolux} not found: ./quickstart builds it"
-command -v blender >/dev/null || fail "blender not found: apt-get install --no-install-recommends blender"
+command -v blender >/dev/null || fail "blender not found: apt-get install --no-install-recommends blender python3-numpy"
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$kDuolux" make-scene two-spheres --triangles 500000 -o "$folder" >/dev/null
+scenes=("${@:3}")
+if ((${#scenes[@]} == 0)); then
+  "$kDuolux" make-scene two-spheres --triangles 500000 -o "$folder" >/dev/null
+  scenes=(assets/cornell/cornell.json "$folder/two_spheres.json")
+fi
+for scene in "${scenes[@]}"; do [[ -f $scene ]] || fail "$scene: no such file"; done
 
 # number KEY FILE: the value of a key in JSON with one key per line.
 number() { sed -n "s/.*\"$1\": *\([0-9.eE+-]*\).*/\1/p" "$2" | head -n 1; }
@@ -35,14 +45,17 @@ number() { sed -n "s/.*\"$1\": *\([0-9.eE+-]*\).*/\1/p" "$2" | head -n 1; }
 # rendering alone, from the first sample to the last, and those of the whole process.
 duolux() {
   local start=$EPOCHREALTIME
-  "$kDuolux" render "$1" --preset global --bounces $kBounces --size "$2x$2" --spp "$3" --seed "$4" -o "$5" --quiet \
+  "$kDuolux" render "$1" --preset global --no-lamp --bounces $kBounces --size "$2x$2" --spp "$3" --seed "$4" -o "$5" --quiet \
     --report "$folder/report.json" 2>"$folder/log" || fail "duolux failed: $(cat "$folder/log")"
   echo "$(number render "$folder/report.json") $start $EPOCHREALTIME" | awk '{ print $1, $3 - $2 }'
 }
 cycles() {
-  local start=$EPOCHREALTIME log=$folder/cycles.log
-  blender -b --factory-startup --debug-cycles --python-exit-code 1 -P tests/bench/cycles_scene.py -- \
-    "$1" "$5" "$3" "$4" "$2" $kBounces "$6" >"$log" 2>&1 || fail "blender failed: $(tail -n 5 "$log")"
+  local log=$folder/cycles.log start
+  printf '[{"scene": "%s", "size": %d, "spp": %d, "seed": %d, "output": "%s", "bounces": %d, "free": %d}]' \
+    "$1" "$2" "$3" "$4" "$5" $kBounces "$6" >"$folder/job.json"
+  start=$EPOCHREALTIME
+  blender -b --factory-startup --debug-cycles --python-exit-code 1 -P $kScripts/cycles_render.py -- \
+    "$folder/job.json" >"$log" 2>&1 || fail "blender failed: $(tail -n 5 "$log")"
   echo "$(awk '/ Path Tracing  / { print $3 }' "$log") $start $EPOCHREALTIME" | awk '{ print $1, $3 - $2 }'
 }
 
@@ -60,7 +73,7 @@ speed() {
   for who in "Duolux" "Cycles" "Cycles, no roulette"; do
     echo "$(spread "$folder/seconds.$who" 1) $(spread "$folder/seconds.$who" 2)" \
       "$(spread "$folder/seconds.Duolux" 1) $(spread "$folder/seconds.Duolux" 2)" |
-      awk -v scene="$(basename "$scene" .json)" -v who="$who" -v samples=$((size * size * spp)) '{
+      awk -v scene="$(basename "${scene%.*}")" -v who="$who" -v samples=$((size * size * spp)) '{
         printf "| %s | %s | %.2f - **%.2f** - %.2f | %.2f | %.2f | %.2f - **%.2f** - %.2f | %.2f |\n",
           scene, who, $1, $2, $3, samples / $2 * 1e-6, $2 / $8, $4, $5, $6, $5 / $11 }'
   done
@@ -75,7 +88,7 @@ difference() {
 # error SCENE: appends to the files `agreement` and `times`, which are tables.
 error() {
   local size=256 spp=1024 scene=$1 name ours=$folder/ours.exr theirs=$folder/theirs.exr out=$folder/out.exr run seconds
-  name=$(basename "$scene" .json)
+  name=$(basename "${scene%.*}")
   duolux "$scene" $size $spp 1001 "$ours" >/dev/null
   cycles "$scene" $size $spp 1002 "$theirs" 0 >/dev/null
   echo "$(number mean "$folder/report.json" | head -n 1) $(difference signed_mean "$theirs" "$ours")" \
@@ -117,12 +130,12 @@ error() {
           s = secondsOfDuolux(r, rmse[r, "c", i])
           printf " %.5f | %.2f | %.1f |", rmse[r, "c", i], s, seconds["c", i] / s
         }
-        print ""
+        s = secondsOfDuolux(1, rmse[2, "c", i])
+        printf " %.2f | %.1f |\n", s, seconds["c", i] / s
       }
     }' >>"$folder/times"
 }
 
-scenes=(assets/cornell/cornell.json "$folder/two_spheres.json")
 if [[ $kMode == speed ]]; then
   echo "| scene | program | rendering, s | Msamples/s | times Duolux | whole process, s | times Duolux |"
   echo "|---|---|---|---|---|---|---|"
@@ -133,8 +146,8 @@ else
   echo "|---|---|---|---|"
   cat "$folder/agreement"
   echo
-  echo "| scene | Cycles, spp | Cycles, s | RMSE to Duolux' | Duolux, s | ratio | RMSE to Cycles' | Duolux, s | ratio |"
-  echo "|---|---|---|---|---|---|---|---|---|"
+  echo "| scene | Cycles, spp | Cycles, s | RMSE to Duolux' | Duolux, s | ratio | RMSE to Cycles' | Duolux, s | ratio | to its own: Duolux, s | ratio |"
+  echo "|---|---|---|---|---|---|---|---|---|---|---|"
   cat "$folder/times"
 fi
 grep -q "Using EMBREE layout" "$folder/cycles.log" || echo "cycles.sh: this Cycles was built without Embree" >&2

@@ -1,0 +1,113 @@
+# gltf_model.py: a material that Blender's importer made, closer to glTF's model than its Principled BSDF can be.
+#
+# Blender 3.4's Principled BSDF adds a dielectric's reflection to the diffuse light without taking it away there, its
+# diffuse lobe is not Lambert's, a clear coat has a quarter of the strength, and microfacets lose what they scatter
+# several times. The importer blends where glTF masks, makes thin walls solid, and absorbs 1 - c where glTF absorbs
+# -ln c. The nodes made here do what glTF says, with these differences: the Fresnel reflectance of rough surfaces is
+# that of the smooth ones in the view's direction, and exact where glTF has Schlick's.
+import math
+
+
+class Tree:
+    def __init__(self, tree):
+        self.nodes, self.links = tree.nodes, tree.links
+
+    def add(self, kind, **inputs):
+        """A node; inputs are numbers, colours, or sockets of other nodes."""
+        node = self.nodes.new("ShaderNode" + kind)
+        for name, value in inputs.items():
+            self.set(node.inputs[name], value)
+        return node
+
+    def set(self, socket, value):
+        if hasattr(value, "is_linked"):
+            self.links.new(value, socket)
+        else:
+            for link in socket.links:
+                self.links.remove(link)
+            socket.default_value = value
+
+    def mix(self, fraction, first, second):
+        """(1 - fraction) first + fraction second."""
+        node = self.nodes.new("ShaderNodeMixShader")
+        for socket, value in zip(node.inputs, (fraction, first, second)):
+            self.set(socket, value)
+        return node.outputs["Shader"]
+
+    def product(self, a, b):
+        node = self.nodes.new("ShaderNodeMath")
+        node.operation = "MULTIPLY"
+        self.set(node.inputs[0], a)
+        self.set(node.inputs[1], b)
+        return node.outputs["Value"]
+
+    def mirror(self, roughness, normal):
+        """White microfacets, with what they scatter several times."""
+        node = self.add("BsdfGlossy", Color=(1.0, 1.0, 1.0, 1.0), Roughness=roughness, **normal)
+        node.distribution = "MULTI_GGX"
+        return node.outputs["BSDF"]
+
+
+def value_of(socket):
+    """What an input is set to: the socket linked to it, or its value."""
+    if socket.is_linked:
+        return socket.links[0].from_socket
+    value = socket.default_value
+    return tuple(value) if hasattr(value, "__len__") else value
+
+
+def apply(material):
+    tree = Tree(material.node_tree)
+    principled = next((n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"), None)
+    if principled is None or max(value_of(principled.inputs["Emission"])[:3]) > 0.0:
+        return
+    get = {name: value_of(socket) for name, socket in principled.inputs.items()}
+    principled.distribution = "MULTI_GGX"
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+    normal = {"Normal": get["Normal"]} if principled.inputs["Normal"].is_linked else {}
+    coat_normal = {"Normal": get["Clearcoat Normal"]} if principled.inputs["Clearcoat Normal"].is_linked else {}
+    absorption = next((n for n in tree.nodes if n.type == "VOLUME_ABSORPTION"), None)
+    for name in ("Alpha", "Metallic"):
+        tree.set(principled.inputs[name], 1.0)
+    tree.set(principled.inputs["Clearcoat"], 0.0)
+
+    fresnel = tree.add("Fresnel", IOR=get["IOR"], **normal).outputs["Fac"]
+    reflection = tree.mirror(get["Roughness"], normal)
+    surface = principled.outputs["BSDF"]
+    if get["Transmission"] == 0.0:
+        diffuse = tree.add("BsdfDiffuse", Color=get["Base Color"], **normal).outputs["BSDF"]
+        reflects = 0.0 if get["Specular"] == 0.0 else fresnel
+        surface = tree.mix(get["Metallic"], tree.mix(reflects, diffuse, reflection), surface)
+    elif absorption is None:
+        through = tree.add("BsdfTransparent", Color=get["Base Color"]).outputs["BSDF"]
+        surface = tree.mix(fresnel, through, reflection)
+    else:
+        tree.set(principled.inputs["Metallic"], 0.0)
+        absorb_as_gltf(absorption)
+
+    if get["Clearcoat"] != 0.0:
+        varnish = tree.add("Fresnel", IOR=1.5, **coat_normal).outputs["Fac"]
+        surface = tree.mix(tree.product(varnish, get["Clearcoat"]), surface,
+                           tree.mirror(get["Clearcoat Roughness"], coat_normal))
+    if get["Alpha"] != 1.0:
+        alpha = get["Alpha"]
+        if material.blend_method == "CLIP":
+            step = tree.nodes.new("ShaderNodeMath")
+            step.operation = "GREATER_THAN"
+            tree.set(step.inputs[0], alpha)
+            step.inputs[1].default_value = material.alpha_threshold
+            alpha = step.outputs["Value"]
+        surface = tree.mix(alpha, tree.add("BsdfTransparent").outputs["BSDF"], surface)
+    target = output.inputs["Surface"]
+    if target.links[0].from_node.type == "ADD_SHADER":  # a sheen, which stays as the importer has it
+        target = target.links[0].from_node.inputs[1]
+    tree.set(target, surface)
+
+
+def absorb_as_gltf(absorption):
+    """From (1 - c) / d per length to -ln(c) / d. Cycles absorbs (1 - colour) density."""
+    colour, density = value_of(absorption.inputs["Color"])[:3], value_of(absorption.inputs["Density"])
+    wanted = [-math.log(max(c, 1e-6)) * density for c in colour]
+    most = max(max(wanted), 1e-6)
+    absorption.inputs["Density"].default_value = most
+    absorption.inputs["Color"].default_value = [1.0 - w / most for w in wanted] + [1.0]
