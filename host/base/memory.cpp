@@ -1,6 +1,7 @@
 #include "host/base/memory.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <limits>
@@ -12,6 +13,13 @@ std::uint64_t addressSpaceLimit() {
     rlimit limit{};
     const bool limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
     return limited ? limit.rlim_cur : std::numeric_limits<std::uint64_t>::max();
+}
+
+void requireAddressSpace(std::uint64_t bytes, std::string_view what) {
+    if (addressSpaceLimit() == std::numeric_limits<std::uint64_t>::max()) return;
+    void* const all = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (all == MAP_FAILED) throw outOfMemory(what, fmt::format("expected {} MiB more", bytes >> 20));
+    ::munmap(all, bytes);
 }
 
 std::string addressSpaceHint() {

@@ -13,6 +13,10 @@ namespace duolux {
 /// Bytes of address space that this process may use (`ulimit -v`); the largest number if there is no limit.
 std::uint64_t addressSpaceLimit();
 
+/// Throws MemoryError if the limit on the address space does not leave `bytes` for `what`, for example a
+/// library that does not survive a failed allocation.
+void requireAddressSpace(std::uint64_t bytes, std::string_view what);
+
 /// The end of an out-of-memory message: the limit on the address space, or nothing if there is none.
 std::string addressSpaceHint();
 

@@ -186,6 +186,12 @@ const DeviceInfo& selectDevice(const std::vector<DeviceInfo>& devices, std::stri
     throw UsageError(fmt::format("no such usable device; found {}", there));
 }
 
+void requireDriverSpace(const DeviceInfo& device, std::string_view stage) {
+    constexpr std::uint64_t kCompilerSpace = std::uint64_t{512} << 20;  // bytes; 330 MiB were seen in use
+    if (device.kind == DeviceKind::kCpu)
+        requireAddressSpace(kCompilerSpace, fmt::format("{} on {}", stage, device.name));
+}
+
 void failOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error) {
     const auto result = static_cast<vk::Result>(error.code().value());
     const std::string line =
@@ -203,6 +209,7 @@ std::unique_ptr<Device::Handles> openDevice(std::string_view selector, Validatio
     auto handles = std::make_unique<Device::Handles>(validation);
     std::vector<vk::raii::PhysicalDevice> all = handles->instance.devices();
     info = selectDevice(describeAll(all), selector);
+    requireDriverSpace(info, "creating a logical device");
     const vk::raii::PhysicalDevice& physical = handles->physical = std::move(all[info.index]);
     handles->queueFamily = computeFamily(physical);
     handles->device = makeDevice(physical, handles->queueFamily, info);

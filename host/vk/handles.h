@@ -43,6 +43,10 @@ struct AccelerationStructure::Handles {
     Level top;
 };
 
+/// Throws MemoryError if the limit on the address space leaves too little for the device's driver. Lavapipe
+/// compiles kernels in this process, some of them when they first run, and crashes if an allocation fails.
+void requireDriverSpace(const DeviceInfo& device, std::string_view stage);
+
 /// Reports a failed call to a device: throws MemoryError if memory ran out, otherwise DeviceError. `stage`:
 /// what failed, for example "tracing paths".
 [[noreturn]] void failOn(const DeviceInfo& device, std::string_view stage, const vk::SystemError& error);

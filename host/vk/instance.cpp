@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-/// Address space for the loader with all of Debian's drivers, plus some working memory.
-constexpr std::uint64_t kAddressSpace = std::uint64_t{1} << 30;  // bytes
+/// Address space for the loader with all of Debian's drivers, and for lavapipe's compiler.
+constexpr std::uint64_t kAddressSpace = std::uint64_t{5} << 28;  // bytes
 
 vk::raii::Context makeContext() {
     try {

@@ -20,6 +20,7 @@ Kernel::Kernel(const Device& device, std::string_view name, std::span<const std:
                std::span<const Binding> bindings, std::span<const Specialization> specialization,
                std::uint32_t pushConstantBytes)
     : handles_(std::make_unique<Handles>()) {
+    requireDriverSpace(device.info(), fmt::format("compiling kernel '{}'", name));
     const vk::raii::Device& handle = device.handles().device;
     auto& [pipeline, pool, set] = *handles_;
     try {

@@ -62,6 +62,34 @@ TEST(NoDriver, TooLittleAddressSpaceIsCalledSo) {
                                   HasSubstr("'ulimit -v'"), Not(HasSubstr("install"))));
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
 }
+
+/// Lavapipe compiles kernels in this process, and crashes if an allocation fails there.
+TEST(TooLittleAddressSpace, IsOneLineWhereverItEnds) {
+    const TemporaryFolder folder;
+    writeText(folder / "m.mtl", "newmtl m\nKd 0.5 0.5 0.5\nPr 0.3\nPm 0.5\nPc 0.5\n");
+    writeText(folder / "m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto render = [&](int mebibytes, const std::string& scene, const std::string& options) {
+        return runProgram(
+            "/bin/sh", folder.path(),
+            {"-c", "ulimit -v " + std::to_string(mebibytes * 1024) + "; exec " DUOLUX_EXECUTABLE " render " +
+                       scene + " --device cpu --quiet --size 16x16 --spp 1 -o a.pfm " + options});
+    };
+    int failed = 0;
+    for (const auto& [scene, options] : {std::pair(DUOLUX_ASSETS "/cornell/cornell.json", ""),
+                                         std::pair("m.obj", "--integrator light --lamp")}) {
+        for (int mebibytes = 300; mebibytes <= 1000; mebibytes += 20) {
+            const ProgramResult result = render(mebibytes, scene, options);
+            if (result.status == 0) break;
+            ++failed;
+            EXPECT_EQ(result.status, 1) << mebibytes << " " << result.err;
+            const std::string last = result.err.substr(result.err.find("duolux: "));
+            EXPECT_THAT(last, HasSubstr("'ulimit -v'")) << mebibytes;
+            EXPECT_LE(std::ranges::count(last, '\n'), 2) << last;  // one may be a warning
+        }
+        EXPECT_EQ(render(2000, scene, options).status, 0);
+    }
+    EXPECT_GT(failed, 10);
+}
 #endif
 
 TEST(Threads, AnyNumberGivesTheSameBits) {
