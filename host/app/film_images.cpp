@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/file.h"
 #include "host/base/version.h"
 
 namespace duolux {
@@ -32,8 +33,12 @@ std::string describeOverflow(const Film& film) {
 
 void writeImages(WriteAll& write, const std::vector<std::string>& files, const ImageRows& rows,
                  const ImageOptions& options) {
-    for (const std::string& file : files)
-        write(file, [&](const std::filesystem::path& path) { writeImage(path, rows, options); });
+    for (const bool pipes : {false, true}) {  // a pipe may wait for its reader
+        for (const std::string& file : files) {
+            if (isPipe(file) != pipes) continue;
+            write(file, [&](const std::filesystem::path& path) { writeImage(path, rows, options); });
+        }
+    }
 }
 
 }  // namespace duolux

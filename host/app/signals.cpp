@@ -6,6 +6,8 @@
 #include <ctime>
 #include <string_view>
 
+#include "host/base/file.h"
+
 namespace duolux {
 
 namespace {
@@ -32,6 +34,7 @@ extern "C" void onSignal(int signal) {
     if (deferred != 0 && stopSignal == 0) {
         ::clock_gettime(CLOCK_MONOTONIC, &firstSignal);
         stopSignal = signal;
+        stopAwaitingReaders();
         return;
     }
     if (stopSignal != 0 && (signal == SIGXCPU || repeatsFirst())) return;  // SIGXCPU comes every second

@@ -50,9 +50,12 @@ fs::path requireFile(const JsonNode& node, const fs::path& path, std::string_vie
     constexpr std::size_t kLongest = 200;
     fs::path file = node.file().parent_path() / path;
     std::error_code ec;
-    if (!fs::is_regular_file(file, ec))
-        node.fail(fmt::format("there is no file {}", shortened(file.string(), kLongest)), remedy);
-    return file;
+    const fs::file_status status = fs::status(file, ec);
+    if (fs::is_regular_file(status)) return file;
+    const std::string name = shortened(file.string(), kLongest);
+    if (!fs::exists(status)) node.fail(fmt::format("there is no file {}", name), remedy);
+    node.fail(fmt::format("{} is a {}", name, fs::is_directory(status) ? "folder" : "pipe or a device"),
+              remedy);
 }
 
 fs::path identity(const fs::path& path) {

@@ -76,9 +76,13 @@ class Signals : public Streams {
 };
 
 TEST_F(Signals, ActWhileASceneIsLoaded) {
-    ASSERT_EQ(::mkfifo((folder_ / "f.obj").c_str(), 0600), 0);
+    std::ofstream mesh(folder_ / "long.obj");
+    mesh << "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    for (int i = 0; i < 4'000'000; ++i)
+        mesh << "f 1 2 3\n";
+    mesh.close();
     for (const auto& [signal, status] : {std::pair(SIGINT, 130), {SIGHUP, 130}, {SIGTERM, 143}}) {
-        const ProgramResult result = render("f.obj", {"-o", "a.png"}, signal, 200ms);
+        const ProgramResult result = render("long.obj", {"-o", "a.png"}, signal, 200ms);
         EXPECT_EQ(result.status, status);
         EXPECT_EQ(result.err, status == 130 ? "duolux: interrupted\n" : "duolux: terminated\n");
     }
@@ -122,10 +126,56 @@ TEST_F(Signals, ActWhileAPipeWaitsForItsReader) {
     EXPECT_TRUE(isPicture("a.exr"));
 }
 
-TEST_F(Signals, TheSecondEndsTheProgramAtOnce) {
+/// The signal comes while the render is under way: nothing interrupts open() or write() afterwards.
+TEST_F(Signals, APipeWithoutAReaderIsNotAwaitedAfterAStop) {
     ASSERT_EQ(::mkfifo((folder_ / "f.png").c_str(), 0600), 0);
     const ProgramResult result =
-        shell("$R -o f.png --spp 10000000 & sleep 2; kill -TERM $!; sleep 1; kill -INT $!; wait $!");
+        render("q.obj", {"--spp", "10000000", "-o", "f.png", "-o", "a.exr"}, SIGTERM, 2500ms);
+    EXPECT_EQ(result.status, 143);
+    EXPECT_THAT(result.err, HasSubstr("f.png: cannot write: Interrupted"));
+    EXPECT_THAT(result.err, HasSubstr("terminated: wrote"));
+    EXPECT_TRUE(isPicture("a.exr"));
+    EXPECT_TRUE(std::filesystem::is_fifo(folder_ / "f.png"));
+}
+
+TEST_F(Signals, AReaderThatReadsNothingIsNotAwaitedAfterAStop) {
+    ASSERT_EQ(::mkfifo((folder_ / "f.exr").c_str(), 0600), 0);
+    const ProgramResult result = shell(
+        "sleep 60 <>f.exr & S=$!; $R --spp 10000000 --size 256x256 -o f.exr & sleep 3; kill -TERM $!; "
+        "wait $!; STATUS=$?; kill $S; exit $STATUS");
+    EXPECT_EQ(result.status, 143);
+    EXPECT_THAT(result.err, HasSubstr("f.exr: cannot write: Interrupted"));
+    EXPECT_TRUE(isPicture("a.png"));
+}
+
+TEST_F(Signals, AReaderGetsThePictureAfterAStop) {
+    ASSERT_EQ(::mkfifo((folder_ / "f.exr").c_str(), 0600), 0);
+    const ProgramResult result = shell(
+        "(sleep 0.3; exec cat) <f.exr >got.exr & C=$!; $R --spp 10000000 --size 256x256 -o f.exr & sleep 3; "
+        "kill -TERM $!; wait $!; STATUS=$?; wait $C; exit $STATUS");
+    EXPECT_EQ(result.status, 143);
+    EXPECT_THAT(result.err, HasSubstr("terminated: wrote"));
+    EXPECT_TRUE(isPicture("got.exr"));
+    EXPECT_TRUE(isPicture("a.png"));
+}
+
+TEST_F(Streams, PipesAreWrittenAfterFiles) {
+    ASSERT_EQ(::mkfifo((folder_ / "f.png").c_str(), 0600), 0);
+    const ProgramResult result = shell(
+        "$D render q.obj --device cpu --size 16x16 --spp 1 -o f.png -o b.png & "
+        "for i in $(seq 300); do [ -e b.png ] && break; sleep 0.1; done; cat f.png >got.png; wait $!");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(isPicture("b.png"));
+    EXPECT_TRUE(isPicture("got.png"));
+}
+
+TEST_F(Signals, TheSecondEndsTheProgramAtOnce) {
+    ASSERT_EQ(::mkfifo((folder_ / "f.exr").c_str(), 0600), 0);
+    // A slow reader.
+    const ProgramResult result = shell(
+        "(while dd bs=4k count=1 status=none; do sleep 0.1; done) <f.exr >/dev/null & "
+        "$R -o f.exr --size 512x512 --spp 10000000 & sleep 3; kill -TERM $!; sleep 2; kill -INT $!; "
+        "wait $!");
     EXPECT_EQ(result.status, 130);
     EXPECT_THAT(result.err, HasSubstr("duolux: interrupted\n"));
     EXPECT_TRUE(isPicture("a.png"));

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <stdexcept>
 
@@ -301,6 +302,11 @@ TEST_F(JsonTest, ObjectsAreChecked) {
     EXPECT_THAT(error("{}"), HasSubstr("objects: is an object; expected an array"));
     EXPECT_THAT(error("[{}]"), HasSubstr("objects[0]: \"mesh\" is missing"));
     EXPECT_THAT(error(R"([{"mesh": "none.obj"}])"), HasSubstr("objects[0].mesh: there is no file none.obj"));
+    ASSERT_EQ(::mkfifo((folder_ / "pipe.obj").c_str(), 0600), 0);
+    EXPECT_THAT(error(R"([{"mesh": "pipe.obj"}])"),
+                HasSubstr("objects[0].mesh: pipe.obj is a pipe or a device"));
+    std::filesystem::create_directory(folder_ / "folder.obj");
+    EXPECT_THAT(error(R"([{"mesh": "folder.obj"}])"), HasSubstr("objects[0].mesh: folder.obj is a folder"));
     EXPECT_THAT(error(R"([{"mesh": "mesh.fbx"}])"),
                 HasSubstr("objects[0].mesh: is \"mesh.fbx\"; expected the path of an .obj"));
     const auto transform = [&](const std::string& numbers) {
