@@ -1,5 +1,6 @@
 #include "host/bvh/pairs.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -40,14 +41,24 @@ class Edges {
             for (int k = 0; k < 3; ++k)
                 edges_[--first_[corners[k]]] = {corners[(k + 1) % 3], static_cast<std::uint32_t>(i)};
         }
+        for (std::size_t i = 0; i + 1 < first_.size(); ++i) {
+            if (first_[i + 1] - first_[i] > kFew)
+                std::ranges::stable_sort(edges_.begin() + first_[i], edges_.begin() + first_[i + 1], {},
+                                         &Edge::end);
+        }
     }
 
-    /// The edges that start at a position, in the order of the list.
-    std::span<const Edge> from(std::uint32_t position) const {
-        return {edges_.data() + first_[position], edges_.data() + first_[position + 1]};
+    /// The edges between two positions in the order of the list, among a few others that start at `begin`.
+    std::span<const Edge> between(std::uint32_t begin, std::uint32_t end) const {
+        const std::span<const Edge> all(edges_.data() + first_[begin], edges_.data() + first_[begin + 1]);
+        if (all.size() <= kFew) return all;
+        const auto found = std::ranges::equal_range(all, end, {}, &Edge::end);
+        return {found.begin(), found.end()};
     }
 
   private:
+    static constexpr std::uint32_t kFew = 32;  // edges that are searched one by one
+
     std::vector<std::uint32_t> first_;
     std::vector<Edge> edges_;
 };
@@ -67,7 +78,7 @@ std::vector<TrianglePair> pairTriangles(const Geometry& geometry, std::span<cons
         std::optional<std::uint32_t> best;
         float smallest = std::numeric_limits<float>::infinity();
         for (int k = 0; k < 3; ++k) {
-            for (const Edges::Edge& edge : edges.from(corners[(k + 1) % 3])) {
+            for (const Edges::Edge& edge : edges.between(corners[(k + 1) % 3], corners[k])) {
                 if (edge.end != corners[k] || taken[edge.owner] != 0) continue;
                 const Aabb other = boundsOf(geometry, triangles[edge.owner]);
                 Aabb both = box;

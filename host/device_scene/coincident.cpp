@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "host/base/hash.h"
 #include "host/base/parallel.h"
+#include "host/device_scene/flat_triangles.h"
 
 namespace duolux {
 
@@ -31,7 +33,8 @@ using PlaneKeys = std::array<std::uint64_t, 2>;
 
 class Finder {
   public:
-    explicit Finder(const Geometry& geometry) : geometry_(geometry), count_(geometry.triangles.size()) {
+    explicit Finder(const Geometry& geometry)
+        : geometry_(geometry), count_(geometry.triangles.size()), sets_(count_) {
         const Bounds bounds = boundsOf(geometry);
         centre_ = 0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper));
         size_ = glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));
@@ -42,8 +45,6 @@ class Finder {
 
     std::vector<std::uint32_t> run() {
         const std::vector<Candidate> candidates = findCandidates();
-        parents_.resize(count_);
-        std::iota(parents_.begin(), parents_.end(), 0u);
         for (std::size_t begin = 0; begin < candidates.size();) {
             std::size_t end = begin;
             while (end < candidates.size() && candidates[end].key == candidates[begin].key)
@@ -56,6 +57,8 @@ class Finder {
     }
 
   private:
+    static constexpr double kRoundings = 8.0;  ///< rounding errors within which positions are equal
+
     struct Candidate {
         std::uint64_t key;
         std::uint32_t triangle;
@@ -122,28 +125,31 @@ class Finder {
         return candidates;
     }
 
-    /// A triangle in the coordinates of its plane.
-    struct Flat {
-        std::array<glm::dvec2, 3> corners;
-        glm::dvec2 lower, upper;
-        std::uint32_t triangle;
-        double doubleArea;
-    };
-
-    std::vector<Flat> flatten(std::span<const Candidate> plane) const {
+    std::vector<FlatTriangle> flatten(std::span<const Candidate> plane) const {
         const glm::dvec3 normal = planeOf(cornersOf(plane[0].triangle)).normal;
         const glm::dvec3 u =
             glm::normalize(std::abs(normal.x) > 0.6 ? glm::cross(normal, glm::dvec3(0, 1, 0))
                                                     : glm::cross(normal, glm::dvec3(1, 0, 0)));
         const glm::dvec3 v = glm::cross(normal, u);
-        std::vector<Flat> flat;
+        // Heights need a normal that is accurate for the whole plane, not for one slender triangle.
+        glm::dvec3 mean(0.0);
         for (const Candidate& candidate : plane) {
-            Flat f;
+            const Corners c = cornersOf(candidate.triangle);
+            const glm::dvec3 areaVector = glm::cross(c[1] - c[0], c[2] - c[0]);
+            mean += glm::dot(areaVector, normal) < 0.0 ? -areaVector : areaVector;
+        }
+        const glm::dvec3 up = glm::normalize(mean);
+        std::vector<FlatTriangle> flat;
+        for (const Candidate& candidate : plane) {
+            FlatTriangle f;
             const Corners c = cornersOf(candidate.triangle);
             for (std::size_t k = 0; k < 3; ++k)
                 f.corners[k] = {glm::dot(u, c[k]), glm::dot(v, c[k])};
             f.lower = glm::min(f.corners[0], glm::min(f.corners[1], f.corners[2]));
             f.upper = glm::max(f.corners[0], glm::max(f.corners[1], f.corners[2]));
+            const glm::dvec3 heights(glm::dot(up, c[0]), glm::dot(up, c[1]), glm::dot(up, c[2]));
+            f.lowest = std::min({heights.x, heights.y, heights.z});
+            f.highest = std::max({heights.x, heights.y, heights.z});
             f.triangle = candidate.triangle;
             f.doubleArea = glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
             flat.push_back(f);
@@ -151,41 +157,70 @@ class Finder {
         return flat;
     }
 
-    /// Compares the triangles of one plane with each other; if there are many, only within the cells of a
-    /// grid.
+    /// Compares the triangles of one plane with each other.
     void comparePlane(std::span<const Candidate> plane) {
         constexpr std::size_t kFew = 16;
-        const std::vector<Flat> flat = flatten(plane);
+        const std::vector<FlatTriangle> flat = flatten(plane);
         if (flat.size() <= kFew) {
             for (std::size_t i = 0; i < flat.size(); ++i)
                 compareWith(flat[i], std::span(flat).subspan(i + 1));
-            return;
+        } else if (const auto grid = gridOver(flat)) {
+            compareInGrid(flat, *grid);
+        } else {
+            // Projected along the plane's normal, triangles in one plane are at most a little further apart.
+            compareOverlapping(flat, 0.5 * kRoundings * rounding_, 2.0 * kRoundings * rounding_, sets_,
+                               [&](const FlatTriangle& a, const FlatTriangle& b) { compare(a, b); });
         }
-        double extent = 0.0;
-        for (const Flat& f : flat)
-            extent += glm::length(f.upper - f.lower);
-        const double cell = extent / static_cast<double>(flat.size());
+    }
+
+    /// The cells that triangles of a plane are in.
+    struct Grid {
         struct Entry {
             std::int64_t x, y;
             std::uint32_t index;
             auto operator<=>(const Entry&) const = default;
         };
-        std::vector<Entry> entries;
-        std::vector<std::uint32_t> large;
+        std::vector<Entry> entries;        ///< in the order of the cells
+        std::vector<std::uint32_t> large;  ///< triangles that are in too many cells
+    };
+
+    /// The fastest way to compare triangles of about one size that are spread over the plane. Empty if too
+    /// many would be compared.
+    static std::optional<Grid> gridOver(std::span<const FlatTriangle> flat) {
+        constexpr std::size_t kMostEach = 256;
+        double extent = 0.0;
+        for (const FlatTriangle& f : flat)
+            extent += glm::length(f.upper - f.lower);
+        const double cell = extent / static_cast<double>(flat.size());
+        Grid grid;
         for (std::uint32_t i = 0; i < flat.size(); ++i) {
             const glm::i64vec2 first(glm::floor(flat[i].lower / cell)),
                 last(glm::floor(flat[i].upper / cell));
             const glm::dvec2 sides = (flat[i].upper - flat[i].lower) / cell + 1.0;
             if (sides.x * sides.y > 64.0) {
-                large.push_back(i);
+                if (grid.large.size() == kMostEach) return std::nullopt;
+                grid.large.push_back(i);
                 continue;
             }
             for (std::int64_t x = first.x; x <= last.x; ++x) {
                 for (std::int64_t y = first.y; y <= last.y; ++y)
-                    entries.push_back({x, y, i});
+                    grid.entries.push_back({x, y, i});
             }
         }
-        std::sort(entries.begin(), entries.end());
+        std::sort(grid.entries.begin(), grid.entries.end());
+        std::size_t comparisons = 0, before = 0;
+        for (std::size_t i = 1; i < grid.entries.size(); ++i) {
+            const bool sameCell =
+                grid.entries[i].x == grid.entries[i - 1].x && grid.entries[i].y == grid.entries[i - 1].y;
+            before = sameCell ? before + 1 : 0;
+            comparisons += before;
+        }
+        if (comparisons > kMostEach * flat.size()) return std::nullopt;
+        return grid;
+    }
+
+    void compareInGrid(std::span<const FlatTriangle> flat, const Grid& grid) {
+        const std::vector<Grid::Entry>& entries = grid.entries;
         for (std::size_t begin = 0; begin < entries.size();) {
             std::size_t end = begin + 1;
             for (; end < entries.size() && entries[end].x == entries[begin].x &&
@@ -196,41 +231,39 @@ class Finder {
             }
             begin = end;
         }
-        for (const std::uint32_t i : large)
+        for (const std::uint32_t i : grid.large)
             compareWith(flat[i], flat);
     }
 
-    void compareWith(const Flat& one, std::span<const Flat> others) {
-        for (const Flat& other : others) {
+    void compareWith(const FlatTriangle& one, std::span<const FlatTriangle> others) {
+        for (const FlatTriangle& other : others) {
             if (other.triangle != one.triangle) compare(one, other);
         }
     }
 
-    void compare(const Flat& a, const Flat& b) {
+    void compare(const FlatTriangle& a, const FlatTriangle& b) {
         if (glm::any(glm::lessThanEqual(glm::min(a.upper, b.upper), glm::max(a.lower, b.lower)))) return;
-        if (!overlap(a, b) || rootOf(a.triangle) == rootOf(b.triangle)) return;
+        if (sets_.rootOf(a.triangle) == sets_.rootOf(b.triangle) || !overlap(a, b)) return;
         const bool aLarger = a.doubleArea >= b.doubleArea;
         const Corners large = cornersOf((aLarger ? a : b).triangle),
                       small = cornersOf((aLarger ? b : a).triangle);
         const glm::dvec3 normal = glm::normalize(glm::cross(large[1] - large[0], large[2] - large[0]));
-        constexpr double kRoundings = 8.0;
         for (const glm::dvec3& corner : small) {
             if (std::abs(glm::dot(normal, corner - large[0])) > kRoundings * rounding_) return;
         }
         any_ = true;
-        const std::uint32_t rootA = rootOf(a.triangle), rootB = rootOf(b.triangle);
-        parents_[std::max(rootA, rootB)] = std::min(rootA, rootB);
+        sets_.unite(a.triangle, b.triangle);
     }
 
     /// Separating axis test: whether no line through an edge separates the triangles. The tolerance excludes
     /// neighbours that overlap only through rounding.
-    bool overlap(const Flat& a, const Flat& b) const {
+    bool overlap(const FlatTriangle& a, const FlatTriangle& b) const {
         constexpr double kLeast = 1e-3;  // of the narrower one
-        for (const Flat* edges : {&a, &b}) {
+        for (const FlatTriangle* edges : {&a, &b}) {
             for (std::size_t e = 0; e < 3; ++e) {
                 const glm::dvec2 edge = edges->corners[(e + 1) % 3] - edges->corners[e];
                 const glm::dvec2 across(-edge.y, edge.x);
-                const auto range = [&](const Flat& f) {
+                const auto range = [&](const FlatTriangle& f) {
                     const double x = glm::dot(across, f.corners[0]), y = glm::dot(across, f.corners[1]),
                                  z = glm::dot(across, f.corners[2]);
                     return glm::dvec2(std::min({x, y, z}), std::max({x, y, z}));
@@ -238,19 +271,11 @@ class Finder {
                 const glm::dvec2 ra = range(a), rb = range(b);
                 const double common = std::min(ra.y, rb.y) - std::max(ra.x, rb.x);
                 const double narrower = std::min(ra.y - ra.x, rb.y - rb.x);
-                const double roundings = 8.0 * rounding_ * glm::length(edge);
+                const double roundings = kRoundings * rounding_ * glm::length(edge);
                 if (common <= std::max(kLeast * narrower, roundings)) return false;
             }
         }
         return true;
-    }
-
-    std::uint32_t rootOf(std::uint32_t triangle) {
-        while (parents_[triangle] != triangle) {
-            parents_[triangle] = parents_[parents_[triangle]];
-            triangle = parents_[triangle];
-        }
-        return triangle;
     }
 
     /// The largest triangle of each group; the first of equally large ones.
@@ -259,7 +284,7 @@ class Finder {
         std::iota(largest.begin(), largest.end(), 0u);
         std::vector<double> areas(count_, -1.0);
         for (std::uint32_t i = 0; i < count_; ++i) {
-            const std::uint32_t root = rootOf(i);
+            const std::uint32_t root = sets_.rootOf(i);
             const double area = doubleArea(cornersOf(i));
             if (area <= areas[root]) continue;
             areas[root] = area;
@@ -267,7 +292,7 @@ class Finder {
         }
         std::vector<std::uint32_t> out(count_);
         for (std::uint32_t i = 0; i < count_; ++i)
-            out[i] = largest[rootOf(i)];
+            out[i] = largest[sets_.rootOf(i)];
         return out;
     }
 
@@ -276,7 +301,7 @@ class Finder {
     glm::dvec3 centre_{0.0};
     double size_ = 0.0;
     double rounding_ = 0.0;  // rounding error of a coordinate
-    std::vector<std::uint32_t> parents_;
+    DisjointSets sets_;
     bool any_ = false;
 };
 

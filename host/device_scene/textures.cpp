@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 namespace duolux {
 
@@ -125,6 +126,9 @@ TextureTable makeTextureTable(const Scene& scene, const AtlasPlan& plan) {
     TextureTable table;
     table.ranges.resize(scene.materials.size());
     const std::vector<bool> used = usedMaterials(scene);
+    std::unordered_map<const Image*, const AtlasImage*> places;
+    for (const AtlasImage& image : plan.images)
+        places.emplace(image.image.get(), &image);
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
         std::vector<Lookup> lookups;
@@ -137,9 +141,7 @@ TextureTable makeTextureTable(const Scene& scene, const AtlasPlan& plan) {
         table.ranges[i] = {static_cast<std::uint32_t>(table.records.size()),
                            static_cast<std::uint32_t>(lookups.size())};
         for (const Lookup& lookup : lookups) {
-            const auto placed =
-                std::ranges::find(plan.images, scene.images[lookup.texture.image], &AtlasImage::image);
-            table.records.push_back(recordOf(lookup, *placed));
+            table.records.push_back(recordOf(lookup, *places.at(scene.images[lookup.texture.image].get())));
             table.groups |= 1u << lookup.group;
         }
     }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <random>
 #include <set>
 
@@ -129,6 +131,28 @@ TEST(Pairs, OfDegenerateTriangles) {
     geometry.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     geometry.triangles = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, 1, 2}, {1, 0, 0}, {2, 1, 0}, {0, 1, 2}};
     expectCorners(geometry, pairAll(geometry));
+}
+
+// Takes tens of milliseconds; seconds if each triangle is compared with all others at the centre.
+TEST(Pairs, OfAFanAreNeighbours) {
+    constexpr std::uint32_t kCount = 100'000;
+    Geometry geometry;
+    geometry.positions.emplace_back(0.0f);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const double angle = i * (6.283185307179586 / kCount);
+        geometry.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0f);
+        geometry.triangles.push_back({0, i + 1, (i + 1) % kCount + 1});
+    }
+    const std::clock_t start = std::clock();
+    const std::vector<TrianglePair> pairs = pairAll(geometry);
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.0);
+    EXPECT_LE(pairs.size(), kCount / 2 + 2);
+    expectCorners(geometry, pairs);
+    for (const TrianglePair& pair : pairs) {
+        if (pair.isSingle()) continue;
+        const std::uint32_t apart = (pair.second + kCount - pair.first) % kCount;
+        EXPECT_TRUE(apart == 1 || apart == kCount - 1);
+    }
 }
 
 TEST(Pairs, OfSomeTrianglesAreAmongThose) {

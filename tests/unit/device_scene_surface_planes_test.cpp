@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/device_scene/coincident.h"
 #include "host/device_scene/surface_planes.h"
@@ -99,6 +100,40 @@ TEST_F(CoincidentGroups, AmongManyTilesOfOnePlane) {
     const std::vector<std::uint32_t> twice = groups();
     for (std::uint32_t i = 0; i < 20000; i += 997)
         EXPECT_EQ(twice[i], twice[20002 + i]) << i;
+}
+
+// Slender triangles, whose boxes overlap; and a second layer of other slices.
+TEST_F(CoincidentGroups, OfSlendersOnlyThoseThatOverlap) {
+    constexpr int kCorners = 3000;
+    const auto corner = [](int i) {
+        const double angle = i * (2.0 * 3.14159265358979 / kCorners);
+        return glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
+    };
+    const auto addFan = [&](const glm::dvec3& centre) {
+        for (int i = 0; i < kCorners; ++i)
+            triangle(centre, corner(i), corner(i + 1));
+    };
+    addFan(glm::dvec3(0.0));
+    EXPECT_TRUE(groups().empty());
+    // Exactly in one plane, of which rounding leaves slender triangles otherwise.
+    turn_ = glm::dmat3(1.0);
+    scene_ = {};
+    addFan(glm::dvec3(0.0));
+    EXPECT_TRUE(groups().empty());
+    const std::uint32_t copy = triangle(glm::dvec3(0.0), corner(100), corner(101));
+    const std::uint32_t bridge = triangle(glm::dvec3(0.5, 0.5, 0.0), corner(200), corner(202));
+    const std::vector<std::uint32_t> found = groups();
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[copy], found[100]);
+    EXPECT_EQ(found[bridge], found[220]);
+    EXPECT_EQ(found[bridge], found[360]);
+    EXPECT_NE(found[bridge], found[100]);
+    EXPECT_EQ(found[2000], 2000u);
+    scene_ = {};
+    addFan(glm::dvec3(0.0));
+    addFan(glm::dvec3(0.01, 0.0, 0.0));
+    const std::vector<std::uint32_t> both = groups();
+    EXPECT_EQ(std::set(both.begin(), both.end()).size(), 2u) << "the line through the centres parts them";
 }
 
 // Planes on the border between two cells of a grid, which rounding puts in one or the other.
