@@ -65,23 +65,39 @@ class Positions {
   public:
     Positions(const SourceText& text, ObjFile& file, std::vector<glm::dvec3> values)
         : text_(text), file_(file), values_(std::move(values)) {
-        for (const ObjPart& part : file.parts)
-            polygons_.push_back({part.faceEnds, part.cornerVertices});
+        viewPolygons();
     }
 
-    /// Invalid vertices are an error if a face uses one or there are no faces; otherwise they are counted.
+    /// Faces with invalid vertices are left out. It is an error if no faces remain.
     void settleBadVertices() {
-        const bool anyFace = std::any_of(polygons_.begin(), polygons_.end(),
-                                         [](const PolygonView& part) { return !part.ends.empty(); });
-        std::vector<bool> used;
+        const ObjPart* firstPart = nullptr;
+        const ObjPart::BadVertex* first = nullptr;  // that a face uses
+        std::vector<bool> used, bad;
         for (const ObjPart& part : file_.parts) {
             for (const ObjPart::BadVertex& vertex : part.badVertices) {
-                if (used.empty()) used = usedVertices(values_.size(), polygons_);
-                if (used[vertex.index] || !anyFace) fail(part, vertex);
-                file_.oddities.add(ObjOddity::kUnusedVertex, part.offset + vertex.offset);
+                if (!anyFace()) fail(part, vertex);
+                if (used.empty()) {
+                    used = usedVertices(values_.size(), polygons_);
+                    bad.resize(values_.size());
+                }
                 values_[vertex.index] = glm::dvec3(0.0);
+                if (!used[vertex.index]) {
+                    file_.oddities.add(ObjOddity::kUnusedVertex, part.offset + vertex.offset);
+                    continue;
+                }
+                bad[vertex.index] = true;
+                if (first != nullptr) continue;
+                first = &vertex;
+                firstPart = &part;
             }
         }
+        if (first == nullptr) return;
+        std::size_t leftOut = 0;
+        for (ObjPart& part : file_.parts)
+            leftOut += leaveOutFaces(part, bad);
+        viewPolygons();
+        if (!anyFace()) fail(*firstPart, *first);
+        file_.oddities.add(ObjOddity::kBadVertex, firstPart->offset + first->offset, leftOut);
     }
 
     void round(Reading reading) {
@@ -90,6 +106,17 @@ class Positions {
     }
 
   private:
+    void viewPolygons() {
+        polygons_.clear();
+        for (const ObjPart& part : file_.parts)
+            polygons_.push_back({part.faceEnds, part.cornerVertices});
+    }
+
+    bool anyFace() const {
+        return std::any_of(polygons_.begin(), polygons_.end(),
+                           [](const PolygonView& part) { return !part.ends.empty(); });
+    }
+
     [[noreturn]] void fail(const ObjPart& part, const ObjPart::BadVertex& vertex) const {
         const std::size_t offset = part.offset + vertex.offset;
         const std::string_view word = firstWord(text_.view().substr(offset));

@@ -219,4 +219,40 @@ std::optional<TextProblem> readObjPart(std::string_view text, const ObjPartTarge
     return PartReader(text, target, reading, part).run();
 }
 
+std::size_t leaveOutFaces(ObjPart& part, const std::vector<bool>& bad) {
+    constexpr std::uint32_t kNone = Geometry::kNoNormal;
+    static_assert(kNone == Geometry::kNoUv);
+    std::vector<std::size_t> before(part.faceEnds.size() + 1);  // faces that are kept before each face
+    std::size_t kept = 0, corners = 0, begin = 0;
+    const auto keep = [&](std::vector<std::uint32_t>& indices, std::size_t end) {
+        for (std::size_t from = begin, to = corners; from < end && to < indices.size(); ++from, ++to)
+            indices[to] = from < indices.size() ? indices[from] : kNone;
+    };
+    for (std::size_t face = 0; face < part.faceEnds.size(); ++face) {
+        before[face] = kept;
+        const std::size_t end = part.faceEnds[face];
+        const auto isBad = [&](std::uint32_t vertex) { return bad[vertex]; };
+        if (!std::any_of(&part.cornerVertices[begin], &part.cornerVertices[end - 1] + 1, isBad)) {
+            keep(part.cornerVertices, end);
+            keep(part.cornerNormals, end);
+            keep(part.cornerUvs, end);
+            corners += end - begin;
+            part.faceEnds[kept++] = static_cast<std::uint32_t>(corners);
+        }
+        begin = end;
+    }
+    before.back() = kept;
+    const std::size_t leftOut = part.faceEnds.size() - kept;
+    if (leftOut == 0) return 0;
+    for (auto* indices : {&part.cornerNormals, &part.cornerUvs})
+        indices->resize(std::min(indices->size(), corners));
+    part.cornerVertices.resize(corners);
+    part.faceEnds.resize(kept);
+    for (ObjPart::MaterialChange& change : part.materials)
+        change.face = before[change.face];
+    for (ObjNotes::Smoothing& change : part.notes.smoothing)
+        change.face = before[change.face];
+    return leftOut;
+}
+
 }  // namespace duolux

@@ -53,9 +53,12 @@ struct ObjPartTarget {
     ObjCounts total;                  ///< of the whole file
 };
 
-/// Reads whole lines of an OBJ file. Invalid vertices are recorded, because they are an error only if a face
-/// uses them. Returns the first problem; its offset, like all offsets in `part`, is relative to the text.
+/// Reads whole lines of an OBJ file. Invalid vertices are recorded, because it is not known yet whether faces
+/// use them. Returns the first problem; its offset, like all offsets in `part`, is relative to the text.
 std::optional<TextProblem> readObjPart(std::string_view text, const ObjPartTarget& target, Reading reading,
                                        ObjPart& part);
+
+/// Removes the faces that have one of the `bad` vertices of the file. Returns the number of these faces.
+std::size_t leaveOutFaces(ObjPart& part, const std::vector<bool>& bad);
 
 }  // namespace duolux

@@ -92,6 +92,12 @@ void warnOfOddities(const SourceText& text, const Tally<ObjOddity>& oddities,
                                        inQuotes(firstWord(text.view().substr(unknown.first))), unknown.count,
                                        unknown.count == 1 ? " is" : "s are"));
     }
+    if (const auto& [faces, first] = oddities[ObjOddity::kBadVertex]; faces > 0) {
+        warnings.push_back(fmt::format(
+            "{}: line {}: a vertex that is not three finite numbers: {} face{} with such vertices "
+            "{} left out",
+            text.file(), text.lineOf(first), faces, faces == 1 ? "" : "s", faces == 1 ? "is" : "are"));
+    }
     for (const auto& [kind, what, consequence] : kObjOddities) {
         const auto& [count, first] = oddities[kind];
         if (count == 0) continue;

@@ -41,6 +41,7 @@ enum class ObjOddity {
     kShortFace,
     kBadFace,
     kUnusedVertex,
+    kBadVertex,  ///< counts the faces that are left out, at the first such vertex
     kExtraNumbers,
     kExtraWords,
     kNormal,

@@ -37,9 +37,10 @@ class Tally {
         std::size_t first = 0;  ///< offset in the text
     };
 
-    void add(Kind kind, std::size_t offset) {
+    void add(Kind kind, std::size_t offset, std::size_t count = 1) {
         Entry& entry = entries_[static_cast<std::size_t>(kind)];
-        if (entry.count++ == 0) entry.first = offset;
+        if (entry.count == 0) entry.first = offset;
+        entry.count += count;
     }
 
     /// Adds the tally of a later part of the text, which begins at `offset`.

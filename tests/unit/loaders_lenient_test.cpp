@@ -161,6 +161,44 @@ TEST_F(LenientTest, VerticesThatNoFaceUsesMayBeAnything) {
         EXPECT_LE(glm::length(position), 10.0f);
 }
 
+TEST_F(LenientTest, FacesWithVerticesThatAreNoNumbersAreLeftOut) {
+    const std::string head =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 nan 0\nv 5 5\nvn 0 0 1\nvn 0 1 0\nvt 0 0\nvt 1 1\n";
+    const LoadedScene scene = loadObj(head +
+                                      "usemtl a\nf 1//1 2//1 4//1\ns 1\nf 1/1 2/1 3/2\nusemtl b\n"
+                                      "f 3/1/2 2/1/2 1/2/2\nf 1/2/1 4/2/1 2/2/1 3/2/1\ns off\nusemtl c\n"
+                                      "f 1 3 2\nf 1 2 5\nusemtl d\n");
+    EXPECT_THAT(withoutLight(textsOf(scene.warnings)),
+                Contains("mesh.obj: line 4: a vertex that is not three finite numbers: 3 faces with "
+                         "such vertices are left out"));
+    const Geometry& geometry = scene.geometry;
+    ASSERT_GE(geometry.triangles.size(), 3u);
+    const char* const names[] = {"a", "b", "c"};
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(scene.materials[geometry.materials[i]].name, names[i]);
+    const auto corner = [&](std::size_t triangle, int k) {
+        return geometry.positions[geometry.triangles[triangle][k]];
+    };
+    EXPECT_EQ(corner(0, 1), glm::vec3(1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(corner(1, 0), glm::vec3(0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(corner(2, 1), glm::vec3(0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(geometry.normals[geometry.normalIndices[1].x], glm::vec3(0.0f, 1.0f, 0.0f));
+    EXPECT_NE(geometry.normalIndices[0].x, Geometry::kNoNormal) << "of the smoothing group";
+    EXPECT_EQ(geometry.normalIndices[2].x, Geometry::kNoNormal);
+    ASSERT_GE(geometry.uvIndices.size(), 3u);
+    EXPECT_EQ(geometry.uvs[geometry.uvIndices[0].z].x, 1.0f);
+    EXPECT_EQ(geometry.uvs[geometry.uvIndices[1].z].x, 1.0f);
+    EXPECT_EQ(geometry.uvIndices[2].x, Geometry::kNoUv);
+
+    EXPECT_THAT(warningsOf("v inf 0 0\nf 1 2 3\nf 1 2 5\n"),
+                ElementsAre("mesh.obj: line 5: a vertex that is not three finite numbers: 1 face with such "
+                            "vertices is left out"));
+    EXPECT_EQ(errorOfObj("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n"),
+              "mesh.obj: line 3: \"nan\" is not a finite number; expected \"v x y z\"");
+    EXPECT_THAT(errorOfObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 nan 0\nf 1 2 3\nf 1 2 4\n", Reading::kStrict),
+                HasSubstr("line 4: \"nan\" is not a finite number"));
+}
+
 TEST_F(LenientTest, NumbersThatAreNotUsedMayBeAnything) {
     const std::string extra = "mesh.obj: line 5: extra values that are not finite numbers: ignored";
     EXPECT_THAT(warningsOf("v 0 0 0 nan nan nan\nf 5 2 3\n"), ElementsAre(extra));
