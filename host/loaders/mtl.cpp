@@ -33,6 +33,7 @@ enum class Oddity {
     kUnnamed,
     kDefinedAgain,
     kColour,
+    kSpectrum,
     kColourCount,
     kNegative,
     kAboveOne,
@@ -47,6 +48,7 @@ constexpr OddityText<Oddity> kMtlOddities[] = {
     {Oddity::kBeforeMaterial, "a statement before any newmtl", "ignored"},
     {Oddity::kUnnamed, "newmtl without a name", "what follows it is ignored"},
     {Oddity::kColour, "a colour that is not finite", "read as if it were absent"},
+    {Oddity::kSpectrum, "a colour as a spectrum or in CIE XYZ", "not supported; read as if it were absent"},
     {Oddity::kColourCount, "a colour that is not three numbers",
      "one number is grey, further ones are 0, a fourth is ignored"},
     {Oddity::kNegative, "a colour below 0", "read as 0"},
@@ -207,6 +209,11 @@ class MtlReader {
     void readColour(std::string_view line, const MtlColour& statement, std::string_view arguments) {
         const std::string_view keyword = statement.keyword;
         const std::string remedy = fmt::format("expected \"{} r g b\"", keyword);
+        const std::string_view kind = firstWord(arguments);
+        if (kind == "spectral" || kind == "xyz") {
+            return tolerate(Oddity::kSpectrum, line,
+                            fmt::format("{}: \"{}\" colours are not supported", keyword, kind), remedy);
+        }
         glm::dvec3 colour(0.0);
         int count = 0;
         for (std::string_view rest = arguments; !rest.empty() && rest.front() != '#';) {

@@ -115,6 +115,12 @@ TEST_F(MtlTest, ColoursThatAreNotThreeNumbersAreReadAsTheyCanBe) {
         EXPECT_EQ(read(absent), glm::vec3(0.8f)) << absent;
 }
 
+TEST_F(MtlTest, SpectraAreCalledSo) {
+    EXPECT_THAT(load("newmtl a\nKd spectral file.rfl 2\nKe xyz 0.1 0.2 0.3\n").warnings,
+                ElementsAre(HasSubstr("m.mtl: line 2: a colour as a spectrum or in CIE XYZ (and 1 more): not "
+                                      "supported; read as if it were absent")));
+}
+
 TEST_F(MtlTest, EachKindOfOddityIsOneWarning) {
     const MaterialLibrary library = load(
         "Kd 1 0 0\nNs 3\nnewmtl\nKd 1 0 0\nnewmtl a\nKd 0.5\nKe 2\nnewmtl b\nKd 2 2 2\nnewmtl c\nKd 3 3 3\n");
