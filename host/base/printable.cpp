@@ -9,15 +9,10 @@
 
 namespace duolux {
 
-namespace {
-
-/// C0 and C1 controls, line and paragraph separators, and bidirectional control characters.
 bool isControl(char32_t c) {
     return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x200e || c == 0x200f ||
            (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;
 }
-
-}  // namespace
 
 std::string shortened(std::string_view text, std::size_t most) {
     std::string result;

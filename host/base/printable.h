@@ -6,6 +6,10 @@
 
 namespace duolux {
 
+/// Whether a terminal may act on a character instead of showing it: C0 and C1 controls, line and paragraph
+/// separators, and bidirectional control characters.
+bool isControl(char32_t c);
+
 /// The text in a form that is safe for a terminal: control characters (including Unicode's bidirectional
 /// ones) and bytes that are not UTF-8 become visible escapes such as \x1b. Idempotent.
 std::string printable(std::string_view text);
