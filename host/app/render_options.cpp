@@ -124,6 +124,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
 
 void sortWords(const CLI::App& command, RenderOptions& options) {
     std::vector<std::string> words = command.remaining(), others;
+    const auto end = std::find(words.begin(), words.end(), "--");  // of the options; only words follow
+    if (end != words.end()) words.erase(end);
     words.insert(words.begin(), options.scene);
     for (std::string& word : words) {
         const bool isOutput = !options.outputs.empty() && isImagePath(word);

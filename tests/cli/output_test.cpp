@@ -144,6 +144,21 @@ TEST_F(Outputs, SeveralImagesFollowOneOption) {
     expectRefused({"-o", "a.png", "a.exr"}, "SCENE");
 }
 
+TEST_F(Outputs, TwoDashesEndTheOptions) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"-o", "a.png", "--", "q.obj"}, {"-o", "a.png", "--", "q.obj", "a.exr"}}) {
+        const ProgramResult result = render(words, "1");
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_TRUE(fs::remove(folder_ / "a.png"));
+    }
+    EXPECT_TRUE(fs::exists(folder_ / "a.exr"));
+    fs::copy_file(folder_ / "q.obj", folder_ / "-q.obj");
+    EXPECT_EQ(run({"info", "--", "-q.obj"}).status, 0);
+    EXPECT_EQ(render({"-o", "a.png", "--", "-q.obj"}, "1").status, 0);
+    expectRefused({"--", "q.obj", "--spp"}, "--spp");
+    expectRefused({"-o", "a.png", "--"}, "SCENE");
+}
+
 TEST_F(Outputs, OfARepeatedOptionTheLastCounts) {
     const ProgramResult result =
         render({"q.obj", "--spp",   "3",  "--seed", "1",  "--size",   "8x8",         "--size",
