@@ -96,10 +96,12 @@ void RenderContext::summarise() {
 }
 
 void RenderContext::failCutShort() const {
-    throw DeviceError(
-        fmt::format("tracing paths failed on {} ({}): the driver ended the loops of a single path; render "
-                    "with fewer bounces than {}, or with fewer surfaces that light passes through",
-                    device.info().name, device.info().driver, settings.bounces));
+    throw DeviceError(fmt::format(
+        "tracing paths failed on {} ({}): the driver ended the loops of a single path, which are too long; "
+        "expected {}fewer surfaces that overlap, that are slender, or that light passes through, or a driver "
+        "without such a limit: of Mesa's lavapipe, 25.0 has none",
+        device.info().name, device.info().driver,
+        settings.bounces > 0 ? fmt::format("fewer bounces than {}, ", settings.bounces) : ""));
 }
 
 bool RenderStatistics::cutOffByBounces() const {

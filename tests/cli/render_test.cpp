@@ -232,6 +232,28 @@ TEST_F(RenderCommand, SeesGrowthWhereOnlyEveryOtherBounceReachesTheCamera) {
     }
 }
 
+TEST_F(RenderCommand, SaysWhatMakesASinglePathTooLong) {
+    std::ofstream mesh(folder_.path() / "stack.obj");
+    mesh << "mtllib stack.mtl\nusemtl e\n";
+    for (int i = 0; i < 8000; ++i) {
+        for (const char* corner : {"-1 -1", "1 -1", "1 1", "-1 1"})
+            mesh << "v " << corner << " " << -0.001 * i << "\n";
+        mesh << "f -4 -3 -2 -1\n";
+    }
+    mesh.close();
+    std::ofstream(folder_.path() / "stack.mtl") << "newmtl e\nKd 0.5 0.5 0.5\nKe 1 1 1\n";
+    for (const char* integrator : {"path", "light"}) {
+        const ProgramResult result =
+            render({"--preset", "local", "--bounces", "2", "--size", "8x8", "--spp", "1", "--integrator",
+                    integrator, "--camera-position", "0,0,3", "--look-at", "0,0,0"},
+                   "stack.obj");
+        if (result.status == 0) continue;  // a driver without the limit
+        EXPECT_EQ(result.status, 1);
+        EXPECT_THAT(result.err, HasSubstr("the driver ended the loops of a single path, which are too long; "
+                                          "expected fewer bounces than 2, fewer surfaces that overlap"));
+    }
+}
+
 TEST_F(RenderCommand, TimeLimitStopsCleanly) {
     const ProgramResult result = render({"--size", "128x128", "--spp", "1000000", "--time-limit", "1",
                                          "--quiet", "-o", "a.pfm", "--report", "r.json"});
