@@ -123,6 +123,7 @@ RenderOutput RenderCommand::trace(Device& device) {
     if (!resumed_ && (style == Progress::Style::kBar || pixels() >= kManyPixels)) {
         progress.begin(static_cast<double>(samplesInAll()));
     }
+    control_.onStage = [&](std::string_view what) { progress.stage(what); };
     control_.onStart = deferSignals;
     control_.onProgress = [&](const RenderProgress& p) {
         if (p.samplesTotal == 0) return true;  // all samples were resumed

@@ -92,9 +92,16 @@ void Progress::begin(double total) {
     if (style_ != Style::kQuiet) draw(false);
 }
 
+void Progress::stage(std::string_view what) {
+    if (!started_ || style_ == Style::kQuiet) return;
+    stage_ = what;
+    draw(false);
+}
+
 void Progress::update(const ProgressState& state) {
     const bool first = !started_;
     state_ = state;
+    stage_.clear();
     started_ = true;
     if (style_ == Style::kQuiet) return;
     if (style_ == Style::kPlain) {
@@ -119,11 +126,13 @@ void Progress::leaveLine() {
 
 void Progress::draw(bool finished) {
     lastDrawn_ = state_.seconds;
+    std::string line = progressLine(state_, style_ == Style::kPlain ? 0 : barWidthFor(out_), finished);
+    if (!stage_.empty() && !finished) line += ", " + stage_;
     if (style_ == Style::kPlain) {
-        show(out_, progressLine(state_, 0, finished) + "\n");
+        show(out_, line + "\n");
     } else {
         constexpr const char* kEraseToEndOfLine = "\x1b[K";
-        show(out_, "\r" + progressLine(state_, barWidthFor(out_), finished) + kEraseToEndOfLine);
+        show(out_, "\r" + line + kEraseToEndOfLine);
         lineOpen_ = true;
     }
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace duolux {
 
@@ -44,6 +45,9 @@ class Progress {
     /// Shows 0 % before there is anything to report, because preparations take a while.
     void begin(double total);
 
+    /// Shows what is being prepared, until the next update(); ignored before begin().
+    void stage(std::string_view what);
+
     void update(const ProgressState& state);
     void update(double done, double total, double seconds) { update({done, total, seconds, std::nullopt}); }
 
@@ -60,6 +64,7 @@ class Progress {
     Style style_;
     std::FILE* out_;
     ProgressState state_;
+    std::string stage_;
     bool started_ = false;
     bool lineOpen_ = false;
     double lastDrawn_ = 0.0;  ///< seconds

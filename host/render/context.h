@@ -29,6 +29,9 @@ struct RenderContext {
     std::uint64_t samplesTotal() const;
     std::uint64_t samplesResumed = 0;
 
+    void stage(std::string_view what) const {
+        if (control.onStage) control.onStage(what);
+    }
     void begin() {
         if (control.onStart) control.onStart();
         start = lastReceived = lastCheckpoint = Clock::now();

@@ -22,6 +22,7 @@ class LightTracer {
         RenderStatistics& statistics = context_.statistics;
         const std::uint32_t maxPaths =
             control.limits.maxPixelsPerDispatch > 0 ? control.limits.maxPixelsPerDispatch : kMaxPaths;
+        context_.stage("creating kernels");
         LightTracerKernel kernel(context_.inputs(), maxPaths, control.limits);
         if (control.limits.maxSamplesPerLane > 0) kernel.limitLanePaths(control.limits.maxSamplesPerLane);
         statistics.lanePaths = kernel.lanePaths();
@@ -52,6 +53,7 @@ class LightTracer {
     void trace(LightTracerKernel& kernel) {
         RenderStatistics& statistics = context_.statistics;
         context_.begin();
+        context_.stage("taking a first look");
         // Without emitters, all paths are dark.
         if (context_.deviceScene.transport.emitterChoices == 0) {
             context_.film.countLightPaths(context_.samplesTotal());

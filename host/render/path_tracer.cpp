@@ -26,6 +26,7 @@ class PathTracer {
                                                                     ? control.limits.maxPixelsPerDispatch
                                                                     : PathTracerKernel::kMaxPixels);
         statistics.directLightInClosedForm = chooseClosedForm();
+        context_.stage("creating kernels");
         PathTracerKernel kernel(context_.inputs(), pixels_, maxPixels, statistics.directLightInClosedForm);
         statistics.pipelineSeconds = secondsSince(pipelineStart);
         statistics.deviceBytes = context_.deviceScene.deviceBytes() + kernel.deviceBytes();
@@ -62,6 +63,7 @@ class PathTracer {
         if (control.limits.maxSamplesPerLane > 0) kernel.limitLaneSamples(control.limits.maxSamplesPerLane);
         statistics.lanePaths = kernel.laneSamples();
         context_.begin();
+        context_.stage("taking a first look");
         if (control.resume == nullptr) context_.film.setQuantum(chooseQuantum(kernel));
         unsigned submitted = 0;
         unsigned received = 0;
@@ -168,6 +170,7 @@ class PathTracer {
 }  // namespace
 
 void tracePaths(RenderContext& context) {
+    context.stage("ordering pixels");
     PathTracer(context).run();
 }
 

@@ -167,6 +167,7 @@ RenderOutput renderOnDevice(Device& device, const Scene& scene, const DeviceScen
                                      range.begin, range.end,
                                      range.begin >= range.end ? "empty" : "beyond the largest number, 2^24"));
     }
+    if (control.onStage) control.onStage("preparing the film");
     RenderContext context{device, scene, settings, control, deviceScene, range, makeFilm(settings), {}};
     if (control.resume != nullptr) {
         const RenderState& state = *control.resume;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "host/base/error.h"
@@ -67,6 +68,8 @@ struct RenderControl {
     double checkpointSeconds = 60.0;
     DirectLight directLight = DirectLight::kAuto;
     TuningChoice tuning;
+    /// Called before each stage of the preparations with what it does, for example "building trees".
+    std::function<void(std::string_view)> onStage;
     /// Called once before the first dispatch; until then no work can be lost.
     std::function<void()> onStart;
     /// Called periodically from the rendering thread; returning false stops the render cleanly.

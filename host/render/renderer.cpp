@@ -69,6 +69,7 @@ RenderOutput Renderer::render(const RenderSettings& settings, const RenderContro
 
 RenderOutput render(Device& device, const Scene& scene, const RenderSettings& settings,
                     const RenderControl& control) {
+    if (control.onStage) control.onStage("building trees");
     DeviceScene deviceScene = upload(device, scene, settings.integrator, control.tuning);
     deviceScene.tree = {};  // rendered once, it is not changed
     return renderOnDevice(device, scene, deviceScene, settings, control);

@@ -124,6 +124,24 @@ TEST(Progress, BeginsBeforeThereIsProgress) {
     EXPECT_EQ(outputOf(Progress::Style::kQuiet, use), "");
 }
 
+TEST(Progress, SaysWhatIsPrepared) {
+    const auto use = [](Progress& progress) {
+        progress.stage("never shown");
+        progress.begin(1e6);
+        progress.stage("building trees");
+        progress.stage("preparing the film");
+        progress.update(1e6, 1e6, 1.0);
+        progress.finish();
+    };
+    EXPECT_EQ(
+        outputOf(Progress::Style::kPlain, use),
+        "  0 %\n  0 %, building trees\n  0 %, preparing the film\n100 % 1.00 Msamples/s, 1.0 s in all\n");
+    const std::string bar = outputOf(Progress::Style::kBar, use);
+    EXPECT_THAT(bar, HasSubstr("], building trees\x1b[K\r  0 % ["));
+    EXPECT_THAT(bar, HasSubstr("], preparing the film\x1b[K\r100 % ["));
+    EXPECT_EQ(outputOf(Progress::Style::kQuiet, use), "");
+}
+
 TEST(Progress, EndsItsLineWhenTheWorkIsAbandoned) {
     const auto use = [](Progress& progress) { progress.update(1.0, 2.0, 1.0); };
     EXPECT_THAT(outputOf(Progress::Style::kBar, use), EndsWith("\x1b[K\n"));
