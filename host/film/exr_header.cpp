@@ -44,6 +44,43 @@ struct Part {
     std::uint32_t tileWidth = 0, tileHeight = 0;  // 0: scan lines instead of tiles
 };
 
+/// The size of values of a type; 0 if it is unknown or varies. OpenEXR reads as much, whatever the file
+/// claims, and takes what follows for the next attribute.
+std::int32_t sizeOf(std::string_view type) {
+    struct Size {
+        std::string_view type;
+        std::int32_t bytes;
+    };
+    constexpr Size kSizes[] = {{"box2i", 16},
+                               {"box2f", 16},
+                               {"chromaticities", 32},
+                               {"compression", 1},
+                               {"deepImageState", 1},
+                               {"double", 8},
+                               {"envmap", 1},
+                               {"float", 4},
+                               {"int", 4},
+                               {"keycode", 28},
+                               {"lineOrder", 1},
+                               {"m33f", 36},
+                               {"m33d", 72},
+                               {"m44f", 64},
+                               {"m44d", 128},
+                               {"rational", 8},
+                               {"tiledesc", 9},
+                               {"timecode", 8},
+                               {"v2i", 8},
+                               {"v2f", 8},
+                               {"v2d", 16},
+                               {"v3i", 12},
+                               {"v3f", 12},
+                               {"v3d", 24}};
+    for (const Size& size : kSizes) {
+        if (size.type == type) return size.bytes;
+    }
+    return 0;
+}
+
 class HeaderReader {
   public:
     HeaderReader(std::string_view bytes, const std::string& file)
@@ -72,15 +109,20 @@ class HeaderReader {
         bool any = false;
         for (std::string_view name = text(); !name.empty(); name = text()) {
             any = true;
-            text();  // the type
+            const std::string_view type = text();
             const auto bytes = number<std::int32_t>();
             if (bytes < 0 || static_cast<std::size_t>(bytes) > rest_.size()) {
                 fail(fmt::format("claims {} bytes for the attribute '{}' where {} are left", bytes, name,
                                  rest_.size()));
             }
+            const std::int32_t expected = sizeOf(type);
+            if (expected != 0 && bytes != expected) {
+                fail(fmt::format("claims {} bytes for the attribute '{}', whose type has {}", bytes, name,
+                                 expected));
+            }
             HeaderReader value(rest_.substr(0, static_cast<std::size_t>(bytes)), file_);
             rest_.remove_prefix(static_cast<std::size_t>(bytes));
-            value.attribute(name, part);
+            value.attribute(name, type, part);
         }
         return any;
     }
@@ -112,7 +154,8 @@ class HeaderReader {
                          "expected a complete file");
     }
 
-    void attribute(std::string_view name, Part& part) {
+    void attribute(std::string_view name, std::string_view type, Part& part) {
+        if (type == "chlist") return channels(name, part);
         if (name == "dataWindow") {
             const auto left = number<std::int32_t>(), top = number<std::int32_t>();
             const auto right = number<std::int32_t>(), bottom = number<std::int32_t>();
@@ -123,14 +166,20 @@ class HeaderReader {
         } else if (name == "tiles") {
             part.tileWidth = number<std::uint32_t>();
             part.tileHeight = number<std::uint32_t>();
-        } else if (name == "channels") {
-            while (!text().empty()) {
-                constexpr std::int32_t kHalf = 1;
-                part.pixelBytes += number<std::int32_t>() == kHalf ? 2 : 4;
-                for (int i = 0; i < 3; ++i)  // pLinear, xSampling, ySampling
-                    number<std::int32_t>();
-            }
         }
+    }
+
+    void channels(std::string_view name, Part& part) {
+        std::uint64_t pixelBytes = 0;
+        while (!text().empty()) {
+            constexpr std::int32_t kHalf = 1;
+            pixelBytes += number<std::int32_t>() == kHalf ? 2 : 4;
+            for (int i = 0; i < 3; ++i)  // pLinear, xSampling, ySampling
+                number<std::int32_t>();
+        }
+        if (!rest_.empty())
+            fail(fmt::format("has {} bytes after the list of the attribute '{}'", rest_.size(), name));
+        if (name == "channels") part.pixelBytes = pixelBytes;
     }
 
     std::string_view rest_;

@@ -186,6 +186,26 @@ TEST(MalformedExr, ClaimsAreHeldAgainstTheSizeOfTheFile) {
     }
 }
 
+/// OpenEXR would take the rest for the next attribute, whose size may then be anything.
+TEST(MalformedExr, AttributesHaveTheSizeOfTheirType) {
+    const AddressSpaceLimit limit(std::size_t{32} << 20);
+    const std::string opaque = std::string("b\0x\0", 4) + words({0x7ffffff0});
+    const std::string list = "R" + std::string(1, '\0') + words({2, 0, 1, 1}) + '\0';
+    const auto sizeOf = [](const std::string& text) { return static_cast<std::int32_t>(text.size()); };
+    EXPECT_EQ(
+        inputErrorOf([&] {
+            decodeExr(exrHeader({{"a", "int", 4 + sizeOf(opaque), words({1}) + opaque}}), "a.exr");
+        }),
+        "a.exr: is not a readable OpenEXR image: it claims 12 bytes for the attribute 'a', whose type has 4; "
+        "expected a complete file");
+    EXPECT_EQ(
+        inputErrorOf([&] {
+            decodeExr(exrHeader({{"channels", "chlist", sizeOf(list + opaque), list + opaque}}), "a.exr");
+        }),
+        "a.exr: is not a readable OpenEXR image: it has 8 bytes after the list of the attribute 'channels'; "
+        "expected a complete file");
+}
+
 TEST(ImageSize, IsLimited) {
     EXPECT_NO_THROW(checkImageSize(65536, 65536, std::size_t{1} << 40, "a"));
     EXPECT_NO_THROW(checkImageSize(1, 1, 1, "a"));
