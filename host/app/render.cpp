@@ -160,6 +160,10 @@ void RenderCommand::warnAbout(const RenderOutput& output) {
          resultWarnings(scene_.settings, samples_, output, failure_.has_value(), stopStatus().has_value())) {
         warnAndKeep(warning);
     }
+    if (output.film.lightPaths() > 0) {
+        const std::string dim = dimEmitterWarning(scene_, output.film.lightPaths());
+        if (!dim.empty()) warnAndKeep(dim);
+    }
     // The warning requires at least one sample of every pixel.
     if (!failure_ && output.film.totalSamples() + output.film.lightPaths() >= output.film.samples().size()) {
         const bool clips = std::any_of(images_.begin(), images_.end(), isPngPath);

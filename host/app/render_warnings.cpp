@@ -6,7 +6,9 @@
 
 #include "host/app/film_images.h"
 #include "host/base/printable.h"
+#include "host/device_scene/emitter_table.h"
 #include "host/device_scene/transport.h"
+#include "host/scene/emitters.h"
 #include "shaders/shared/material_layout.h"
 
 namespace duolux {
@@ -53,6 +55,29 @@ std::vector<std::string> resultWarnings(const RenderSettings& settings, SampleRa
             fmt::format("{} samples were not finite and were dropped", statistics.nonFiniteSamples));
     if (statistics.filmOverflowed) warnings.push_back(describeOverflow(output.film));
     return warnings;
+}
+
+std::string dimEmitterWarning(const Scene& scene, std::uint64_t lightPaths) {
+    constexpr double kFewPaths = 100.0, kSmallShare = 1e-4;
+    const std::vector<SceneEmitter> emitters = listEmitters(scene);
+    const EmitterTable table = buildEmitterTable(scene, emitters, true);
+    if (table.choices == 0) return {};
+    std::vector<double> shares(scene.materials.size());  // of all light paths
+    for (std::size_t i = 0; i < emitters.size(); ++i) {
+        if (emitters[i].kind != EmitterKind::kTriangle) continue;
+        shares[scene.geometry.materials[emitters[i].index]] +=
+            static_cast<double>(table.records[i].density) * emitters[i].area;
+    }
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const double paths = shares[i] * static_cast<double>(lightPaths);
+        if (!(shares[i] > 0.0) || shares[i] >= kSmallShare || paths >= kFewPaths) continue;
+        return fmt::format(
+            "{}: material {} emits {:.1e} of all light, so that of {} light paths about {:.2g} start there: "
+            "its light is missing or noisy; expected --integrator path, more --spp, or no emitters that are "
+            "so much brighter",
+            scene.source.string(), inQuotes(scene.materials[i].name), shares[i], lightPaths, paths);
+    }
+    return {};
 }
 
 void warnOfSmoothSurfaces(LoadedScene& scene) {

@@ -15,6 +15,10 @@ const char* samplesName(const RenderSettings& settings);
 std::vector<std::string> resultWarnings(const RenderSettings& settings, SampleRange samples,
                                         const RenderOutput& output, bool failed, bool interrupted);
 
+/// A warning if so few of a number of light paths start at some emitting material that its light is missing
+/// from the picture; empty otherwise.
+std::string dimEmitterWarning(const Scene& scene, std::uint64_t lightPaths);
+
 /// Adds a warning to the scene's if a light tracer would not show what some surface reflects.
 void warnOfSmoothSurfaces(LoadedScene& scene);
 

@@ -180,6 +180,22 @@ TEST_F(RenderCommand, SaysThatLightPathsDoNotShowMirrors) {
     EXPECT_THAT(render(small, sceneWith("0.02")).err, Not(HasSubstr(warning)));
 }
 
+TEST_F(RenderCommand, SaysThatFewLightPathsStartAtADimLamp) {
+    const auto warningWith = [&](const char* other) {
+        std::ofstream(folder_.path() / "s.json")
+            << R"({"duolux": 1, "objects": [{"mesh": ")" DUOLUX_ASSETS R"(/cornell/cornell.obj"}], "lights": [
+                {"type": "rectangle", "origin": [9000, 0, 0], "edge1": [100, 0, 0], "edge2": [0, 100, 0],
+                 "emission": {"invisible": )"
+            << other << "}}]}";
+        return render({"--size", "16x16", "--spp", "4", "-o", "a.png", "--integrator", "light"},
+                      (folder_.path() / "s.json").string())
+            .err;
+    };
+    EXPECT_THAT(warningWith("1e8"), HasSubstr("material \"light\" emits "));
+    EXPECT_THAT(warningWith("1e8"), HasSubstr("of 1024 light paths about "));
+    EXPECT_THAT(warningWith("1"), Not(HasSubstr("light paths about")));
+}
+
 TEST_F(RenderCommand, LocalSendsNoShadowRays) {
     const ProgramResult result =
         render({"--preset", "local", "--size", "16x16", "--spp", "2", "--report", "-", "-o", "a.png"});
