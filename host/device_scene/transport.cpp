@@ -69,7 +69,7 @@ TransportTraits analyseTransport(const Scene& scene) {
     TransportTraits traits;
     Pattern opaque;
     Pattern transparent;
-    bool identity = true;  // on the first column, which carries all importance unless there is a second one
+    bool identity = true;  // on the first column
     const Reflectance* first = nullptr;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (!used[i]) continue;
@@ -87,13 +87,16 @@ TransportTraits analyseTransport(const Scene& scene) {
     }
     traits.secondColumn =
         ((opaque.row[0] | opaque.row[1] | transparent.row[0] | transparent.row[1]) & 2) != 0;
+    // Importance that has scattered is in the first column and stays there. The second one has importance
+    // only between the camera and the first scattering, where T may have an entry 11, as partial surfaces do.
+    const bool staysInFirstColumn = ((opaque.row[0] | opaque.row[1] | transparent.row[0]) & 2) == 0;
     traits.invisibleScatters = opaque.row[0] != 0;
     traits.visibleScatters = opaque.row[1] != 0;
     traits.invisibleCrosses = transparent.row[0] != 0;
     traits.visibleCrosses = transparent.row[1] != 0;
     if (!traits.invisibleCrosses && !traits.visibleCrosses) {
         traits.transparency = shared::kTransparencyZero;
-    } else if (identity && !traits.secondColumn) {
+    } else if (identity && staysInFirstColumn) {
         traits.transparency = shared::kTransparencyIdentity;
     } else {
         traits.transparency = shared::kTransparencyGeneral;

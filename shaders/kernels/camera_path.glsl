@@ -32,6 +32,13 @@ bool onlyEmissionLeft(Path path) {
     return path.scatterings >= params.bounces || !canScatter(path.importance);
 }
 
+// Whether every T passes the importance of the path unchanged. On the way from the camera, the second column may carry
+// importance, which surfaces stop.
+bool passesAll(Path path) {
+    bool secondColumn = kSecondColumn && maxComponent(path.importance.m01 + path.importance.m11) > 0.0;
+    return kTransparency == kTransparencyIdentity && !secondColumn;
+}
+
 // Without a second column, the first column carries all importance, except on the camera's own segment.
 ReflectanceMatrix importanceOf(Path path) {
     if (kSecondColumn) return path.importance;

@@ -145,7 +145,7 @@ void main() {
                 bool emissionOnly = onlyEmissionLeft(path) && !onCameraSegment(path);
                 if (kTransparency == kTransparencyIdentity) {
                     // Most rays that only look for emitters, and that nothing stops, pass far from all of them.
-                    while (emissionOnly && !path.ended &&
+                    while (emissionOnly && passesAll(path) && !path.ended &&
                            !intersectBox(path.segment.origin, path.segment.direction, path.segment.t,
                                          params.emitterLower, params.emitterUpper)) {
                         endSegment(path, vertex);
@@ -156,7 +156,7 @@ void main() {
                     kEmittingTriangles && (kDirectLight != kDirectLightClosedForm || path.scatterings == 0u);
                 if (emissionOnly && !emissionCounts) path.ended = true;
                 // Emitters along a ray that nothing else can stop are found in their own small tree.
-                bool inEmitterTree = kTransparency == kTransparencyIdentity && emissionOnly;
+                bool inEmitterTree = passesAll(path) && emissionOnly;
                 if (path.ended && !shadow.pending) {
                     addSample(sums, received, dispatch.inverseQuantum,
                               filmRounding(path.stream.x, path.stream.y, kDimensionRounding, params.seed));

@@ -25,7 +25,7 @@ DUOLUX_CONST uint kDirectLightClosedForm = 2u;
 
 // The transmittance of a segment between two points, for the whole scene.
 DUOLUX_CONST uint kTransparencyZero = 0u;  // every T is 0: any surface hides what is behind it
-// Every T passes the components that carry importance unchanged.
+// Every T passes importance that has scattered unchanged, and importance in the first column at the camera.
 DUOLUX_CONST uint kTransparencyIdentity = 1u;
 DUOLUX_CONST uint kTransparencyGeneral = 2u;  // a product of 2x2 matrices, in order
 

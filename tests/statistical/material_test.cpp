@@ -229,6 +229,40 @@ TEST(Clearcoat, LiesOnBothSidesOfAnOpaqueSheet) {
     }
 }
 
+/// Under `local` nothing stops invisible light, but a wall hides from the camera what is behind it, also
+/// behind a pane that is there in part.
+TEST(Blend, PaneShowsTheWallBehindIt) {
+    SceneBuilder builder;
+    Material pane;
+    pane.name = "pane";
+    pane.baseColor = glm::vec3(0.0f);
+    pane.alpha = {AlphaMode::kBlend, 0.5f, 0.5f};
+    Material wall = pane;
+    wall.name = "wall";
+    wall.alpha = {};
+    Material lamp = wall;
+    lamp.name = "lamp";
+    lamp.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kBoth};
+    float z = 1.0f;
+    for (const Material& material : {pane, wall, lamp}) {
+        builder.quad({-4, -4, z}, {4, -4, z}, {4, 4, z}, {-4, 4, z}, builder.add(material));
+        z -= 1.0f;
+    }
+    LoadedScene& scene = builder.scene;
+    scene.reflectance = preset("local");
+    scene.camera = {{0.2f, 0.1f, 5}, {0, 0, 0}, {0, 1, 0}, 40.0f};
+    scene.settings.width = scene.settings.height = 8;
+    scene.settings.spp = 4;
+    for (const std::uint32_t bounces : {0u, 1u, 4u}) {
+        scene.settings.bounces = bounces;
+        const RadianceImage image = render(device(), scene).film.resolve();
+        for (std::size_t i = 0; i < image.visible.size(); ++i) {
+            EXPECT_EQ(image.visible[i], glm::vec3(0.0f)) << bounces << " bounces, pixel " << i;
+            EXPECT_NEAR(image.invisible[i].y, 1.0f, 1e-5f) << bounces << " bounces, pixel " << i;
+        }
+    }
+}
+
 /// A parallel plate of smooth glass without absorption in uniform light behind it: all inner reflections
 /// together transmit (1 - R) / (1 + R) at normal incidence, where R = ((n - 1) / (n + 1))^2 is that of one
 /// interface.

@@ -93,6 +93,27 @@ TEST(Transport, SecondColumn) {
     EXPECT_EQ(analyseTransport(sceneWith(reflectance)).transparency, shared::kTransparencyGeneral);
 }
 
+// What a surface that is there in part lets the camera see is in the second column, but only before the path
+// scatters.
+TEST(Transport, PartialSurfacesKeepTheIdentity) {
+    for (const Preset& preset : presets()) {
+        Scene scene = sceneWith(*presetReflectance(preset.name));
+        const std::uint32_t opaque = analyseTransport(scene).transparency;
+        scene.materials[1].alpha = {AlphaMode::kBlend, 0.5f, 0.5f};
+        const TransportTraits traits = analyseTransport(scene);
+        EXPECT_TRUE(traits.coverage);
+        EXPECT_TRUE(traits.secondColumn);
+        const bool identity = opaque == shared::kTransparencyIdentity;
+        EXPECT_EQ(traits.transparency,
+                  identity ? shared::kTransparencyIdentity : shared::kTransparencyGeneral);
+        EXPECT_EQ(traits.cameraTransparency, shared::kTransparencyGeneral);
+    }
+    // Invisible importance that a crossing makes visible is stopped by the next surface.
+    Reflectance crossing = *presetReflectance("local");
+    crossing.transparent.m01 = glm::vec3(0.1f);
+    EXPECT_EQ(analyseTransport(sceneWith(crossing)).transparency, shared::kTransparencyGeneral);
+}
+
 /// Importance that alternates between the components: with 01 and 10 the series is infinite, with 10 alone it
 /// ends after one event.
 TEST(Transport, ScatteringsFollowTheComponents) {
