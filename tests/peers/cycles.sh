@@ -19,7 +19,7 @@ readonly kMode=${1:-}
 readonly kDuolux=$(readlink -f "${2:-build/duolux}")
 readonly kScripts=tests/peers
 readonly kBounces=16
-readonly kRuns=3
+readonly kRuns=${RUNS:-3}
 
 fail() {
   echo "cycles.sh: $1" >&2

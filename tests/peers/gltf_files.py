@@ -25,6 +25,10 @@ def png_of_rows(width, height, channels, rows, level=6):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, level)) + chunk(b"IEND", b"")
 
 
+# KHR_materials_specular of a dielectric that does not reflect. Blender 3.4's importer ignores the factor.
+NO_REFLECTION = {"specularFactor": 0.0, "specularColorFactor": [0.0, 0.0, 0.0]}
+
+
 class Gltf:
     """A glTF document to which meshes are added, in a buffer of its own."""
 
@@ -58,7 +62,7 @@ class Gltf:
             "name": "lamp", "doubleSided": True, "emissiveFactor": [1, 1, 1],
             "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
             "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": strength},
-                           "KHR_materials_specular": {"specularFactor": 0}}})
+                           "KHR_materials_specular": NO_REFLECTION}})
 
     def accessor(self, rows, code, component, kind):
         """`code`: of struct, for each number. `component`: its glTF number."""

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 
-from gltf_files import Gltf
+from gltf_files import NO_REFLECTION, Gltf
 
 
 def bounds(model, duolux):
@@ -30,7 +30,8 @@ def light_model(model, folder, duolux):
     gltf = Gltf(document)
     gltf.add_camera(30.0, [middle[0] + 0.7 * size, middle[1] + 0.3 * size, middle[2] + 2.2 * size], middle)
     floor = gltf.add_material({"name": "floor", "pbrMetallicRoughness": {
-        "baseColorFactor": [0.4, 0.4, 0.4, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}})
+        "baseColorFactor": [0.4, 0.4, 0.4, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0},
+        "extensions": {"KHR_materials_specular": NO_REFLECTION}})
     gltf.add_node(mesh=gltf.add_rectangle(floor, 4.0 * size), translation=[middle[0], lower[1], middle[2]])
     lamp = gltf.add_rectangle(gltf.add_lamp(8.0), 0.7 * size)
     gltf.add_node(mesh=lamp, translation=[middle[0] + size, upper[1] + 0.8 * size, middle[2] + size],

@@ -26,9 +26,10 @@ def fail(message):
 
 
 def run(*command):
-    result = subprocess.run(command, capture_output=True, text=True)
+    # Blender takes its Python library from beside the first python3 of PATH; it needs Debian's.
+    result = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": "/usr/bin:/bin"})
     if result.returncode != 0:
-        fail(f"{command[0]} failed: {(result.stderr or result.stdout).strip().splitlines()[-1]}")
+        fail(f"{command[0]} failed:\n{(result.stdout + result.stderr)[-2000:].strip()}")
     return result.stdout
 
 

@@ -1,7 +1,7 @@
 # sphere_materials.py: glTF files of a sphere, one for each kind of material, for materials.py.
 import math
 
-from gltf_files import Gltf, png
+from gltf_files import NO_REFLECTION, Gltf, png
 
 IMAGE = 256  # pixels of each side
 
@@ -46,7 +46,7 @@ def coat(roughness):
 
 
 MATERIALS = {
-    "diffuse": surface(GREY, 0.0, 1.0, {"specular": {"specularFactor": 0.0}}),
+    "diffuse": surface(GREY, 0.0, 1.0, {"specular": NO_REFLECTION}),
     **{f"metal, roughness {r}": surface(GOLD, 1.0, r) for r in ROUGHNESSES},
     **{f"dielectric, roughness {r}": surface(GREY, 0.0, r) for r in ROUGHNESSES},
     **{f"black dielectric, roughness {r}": surface((0.0, 0.0, 0.0), 0.0, r) for r in ROUGHNESSES},
@@ -88,6 +88,6 @@ def write_scene(path, name, light):
         gltf.add_node(mesh=gltf.add_sphere(gltf.add_lamp(1.0), stacks=16), scale=[20.0, 20.0, 20.0])
     else:
         gltf.add_node(mesh=gltf.add_rectangle(gltf.add_lamp(5.0), 2.0), translation=[0.0, 4.0, 0.0])
-        floor = surface((0.5, 0.5, 0.5), 0.0, 1.0, {"specular": {"specularFactor": 0.0}})
+        floor = surface((0.5, 0.5, 0.5), 0.0, 1.0, {"specular": NO_REFLECTION})
         gltf.add_node(mesh=gltf.add_rectangle(gltf.add_material({**floor, "name": "floor"}), 6.0), translation=[0.0, -1.0, 0.0])
     gltf.write(path)
