@@ -85,14 +85,14 @@ def apply(material):
     tree.set(principled.inputs["Alpha"], 1.0)
     tree.set(principled.inputs["Clearcoat"], 0.0)
 
+    f0 = ((get["IOR"] - 1.0) / (get["IOR"] + 1.0)) ** 2
     if get["Transmission"] == 0.0:
         diffuse = tree.add("BsdfDiffuse", Color=get["Base Color"], **normal).outputs["BSDF"]
-        f0 = ((get["IOR"] - 1.0) / (get["IOR"] + 1.0)) ** 2
         reflectance = 0.0 if get["Specular"] == 0.0 else tree.schlick(f0, normal)
         dielectric = tree.mix(reflectance, diffuse, tree.mirror(get["Roughness"], normal))
         surface = tree.mix(get["Metallic"], dielectric, tree.metal(get["Base Color"], get["Roughness"], normal))
     elif absorption is None:
-        fresnel = tree.add("Fresnel", IOR=get["IOR"], **normal).outputs["Fac"]
+        fresnel = tree.schlick(f0, normal)  # the Fresnel node would have the inside of solid glass behind the surface
         through = tree.add("BsdfTransparent", Color=get["Base Color"]).outputs["BSDF"]
         surface = tree.mix(fresnel, through, tree.mirror(get["Roughness"], normal))
     else:
