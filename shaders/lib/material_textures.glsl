@@ -70,7 +70,9 @@ TextureValues sampleTextures(uint material, uint groups, vec2 uv, vec2 secondUv)
         bool second = (image.flags & kTextureSecondUv) != 0u;
         uint lookups = (groups >> group) & 1u;
         for (uint k = 0u; k < lookups; k++) {
-            vec4 value = sampleTexture(image, second ? secondUv : uv);
+            // HDR and EXR images may have any values, but only emission may exceed 1.
+            float most = group == kGroupEmission ? 3e38 : 1.0;
+            vec4 value = clamp(sampleTexture(image, second ? secondUv : uv), vec4(0.0), vec4(most));
             if (isTextured(kGroupBase) && group == kGroupBase) {
                 values.base = replaced(values.base, value, image.flags);
             }

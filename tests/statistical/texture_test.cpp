@@ -113,6 +113,32 @@ TEST(Textures, EmissionIsScaledTexelByTexel) {
     }
 }
 
+/// What an image scales stays in its range: a floating-point image with values of up to 3 and from -1 gives
+/// the picture of the same image within 0 and 1.
+TEST(Textures, ValuesOfMaterialsAreAtMostOneAndNotNegative) {
+    for (const MaterialInput input :
+         {MaterialInput::kBaseColor, MaterialInput::kTransmission, MaterialInput::kMetallic}) {
+        Material material;
+        material.baseColor = glm::vec3(0.8f);
+        material.roughness = 0.5f;
+        material.metallic = input == MaterialInput::kMetallic ? 1.0f : 0.0f;
+        material.transmission = input == MaterialInput::kTransmission ? 1.0f : 0.0f;
+        material.specular = 1.0f;
+        material.textures = {textureFor(input)};
+        SceneBuilder builder = square(material);
+        addLamp(builder, 1.0f);
+        const auto picture = [&](float low, float high) {
+            builder.scene.images = {imageOf(kSize, kSize, [&](std::uint32_t x, std::uint32_t y) {
+                return glm::vec4(glm::clamp(static_cast<float>((x + y) % 5) - 1.0f, low, high));
+            })};
+            return renderOnce(builder.scene);
+        };
+        const RadianceImage any = picture(-1.0f, 3.0f), within = picture(0.0f, 1.0f);
+        EXPECT_EQ(any.visible, within.visible);
+        EXPECT_EQ(any.invisible, within.invisible);
+    }
+}
+
 /// Between the centres of the outer pixels, the filtered ramp is linear.
 TEST(Textures, FilteredRampsAreLinear) {
     Material material;
