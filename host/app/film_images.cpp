@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/file.h"
+#include "host/base/stream.h"
 #include "host/base/version.h"
 
 namespace duolux {

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <string_view>
 
-#include "host/base/file.h"
+#include "host/base/stream.h"
 
 namespace duolux {
 

@@ -3,13 +3,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/magic.h>
-#include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -20,6 +18,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/stream.h"
 
 namespace duolux {
 
@@ -192,52 +191,6 @@ class Temporary {
     std::optional<FileWriter> writer_;
 };
 
-std::atomic<bool> readersAwaited{true};
-static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler sets it
-
-/// Waits until a pipe or device can be written to. Throws EINTR at a signal and, if readers are no longer
-/// awaited, after a second in which nothing was read.
-void waitForReader(int stream) {
-    constexpr int kInterval = 100, kPatience = 10;  // ms, intervals
-    for (int left = kPatience;; --left) {
-        if (left == 0) fail(EINTR);
-        pollfd entry{stream, POLLOUT, 0};
-        const int ready = ::poll(&entry, 1, kInterval);
-        if (ready > 0) return;
-        if (ready < 0) fail(errno);
-        if (readersAwaited) left = kPatience + 1;
-    }
-}
-
-/// Opens a pipe or device for writing. A pipe waits for a reader, as open() does, but no longer than readers
-/// are awaited: a signal that comes before open() would not interrupt it.
-int openStream(const fs::path& path) {
-    constexpr int kInterval = 20;  // ms
-    for (;;) {
-        const int stream = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-        struct stat status {};
-        if (stream >= 0 || errno != ENXIO || ::stat(path.c_str(), &status) != 0 || !S_ISFIFO(status.st_mode))
-            return stream;
-        if (!readersAwaited || ::poll(nullptr, 0, kInterval) < 0) {
-            errno = EINTR;
-            return -1;
-        }
-    }
-}
-
-void writeAll(int file, const char* bytes, std::size_t count) {
-    while (count > 0) {
-        const ssize_t written = ::write(file, bytes, count);
-        if (written < 0 && errno == EAGAIN) {
-            waitForReader(file);
-            continue;
-        }
-        if (written < 0) fail(errno);
-        bytes += written;
-        count -= static_cast<std::size_t>(written);
-    }
-}
-
 /// Overwrites a file that cannot be replaced, or appends to a stream.
 void copyInto(const Destination& destination, int source) {
     const Descriptor target{destination.isStream
@@ -361,15 +314,6 @@ void writeFileAtomically(const fs::path& path, const Write& write) {
 
 void writeFile(const fs::path& path, std::string_view bytes) {
     writeFileAtomically(path, [&](FileWriter& file) { file.write(bytes); });
-}
-
-void stopAwaitingReaders() noexcept {
-    readersAwaited = false;
-}
-
-bool isPipe(const fs::path& path) {
-    std::error_code unknown;
-    return fs::is_fifo(path, unknown);
 }
 
 bool isSameFile(const fs::path& a, const fs::path& b) {

@@ -41,19 +41,12 @@ class FileWriter {
 /// anything throws. The old file's permissions are kept, and its owner if permitted. A write-protected file
 /// is not replaced. A symbolic link is followed and kept. Devices, pipes, and files that cannot be replaced
 /// (in a folder without permission, or a mount point) are written to directly, once `write` has filled a file
-/// in memory or the temporary file; pipes wait for a reader, until a signal or stopAwaitingReaders(). Throws
+/// in memory or the temporary file; pipes wait for a reader (see stream.h). Throws
 /// MachineError with `path`; duolux::Error exceptions of `write` pass through.
 void writeFileAtomically(const std::filesystem::path& path, const std::function<void(FileWriter&)>& write);
 
 /// Writes a whole file with writeFileAtomically.
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
-
-/// From now on, writing to a pipe fails if it has no reader, or if its reader reads nothing for a second. For
-/// the whole process. Signal handlers may call it.
-void stopAwaitingReaders() noexcept;
-
-/// Whether this is a named pipe.
-bool isPipe(const std::filesystem::path& path);
 
 /// Whether two paths name the same file, also through links or different spellings. It need not exist.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
