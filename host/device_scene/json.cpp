@@ -12,6 +12,7 @@ nlohmann::ordered_json toJson(const Tuning& tuning) {
             {"lanes", tuning.lanes},
             {"workgroup_size", tuning.workgroupSize},
             {"leave_traversal", tuning.leaveTraversal},
+            {"leave_traversal_costly", tuning.leaveTraversalCostly},
             {"leave_nodes", tuning.leaveNodes},
             {"vote_by_shuffle", tuning.voteByShuffle},
             {"fewest_teams", tuning.fewestTeams},

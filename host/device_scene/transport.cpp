@@ -79,22 +79,24 @@ TransportTraits analyseTransport(const Scene& scene) {
         traits.lobes |= lobesOf(scene.materials[i]);
         opaque.add(reflectance.opaque);
         transparent.add(reflectance.transparent);
-        if (isPartial(scene, scene.materials[i])) {
-            traits.coverage = true;
-            transparent.add(kIdentity);
-        }
+        traits.coverage = traits.coverage || isPartial(scene, scene.materials[i]);
         identity = identity && reflectance.transparent.m00 == glm::vec3(1.0f);
     }
+    const bool onlyCoverage = traits.coverage && transparent.row[0] == 0 && transparent.row[1] == 0;
+    if (traits.coverage && !onlyCoverage) transparent.add(kIdentity);
     traits.secondColumn =
         ((opaque.row[0] | opaque.row[1] | transparent.row[0] | transparent.row[1]) & 2) != 0;
     // Importance that has scattered is in the first column and stays there. The second one has importance
     // only between the camera and the first scattering, where T may have an entry 11, as partial surfaces do.
     const bool staysInFirstColumn = ((opaque.row[0] | opaque.row[1] | transparent.row[0]) & 2) == 0;
+    if (onlyCoverage) transparent.add(kIdentity);
     traits.invisibleScatters = opaque.row[0] != 0;
     traits.visibleScatters = opaque.row[1] != 0;
     traits.invisibleCrosses = transparent.row[0] != 0;
     traits.visibleCrosses = transparent.row[1] != 0;
-    if (!traits.invisibleCrosses && !traits.visibleCrosses) {
+    if (onlyCoverage) {
+        traits.transparency = shared::kTransparencyCoverage;
+    } else if (!traits.invisibleCrosses && !traits.visibleCrosses) {
         traits.transparency = shared::kTransparencyZero;
     } else if (identity && staysInFirstColumn) {
         traits.transparency = shared::kTransparencyIdentity;

@@ -44,6 +44,9 @@ struct Tuning {
     std::uint32_t workgroupSize = 1;  ///< a multiple of `lanes`
     /// Lanes leave the traversal when fewer have rays in flight, and the node loop when fewer need nodes.
     std::uint32_t leaveTraversal = 0, leaveNodes = 0;
+    /// In place of leaveTraversal where what follows the traversal costs more: lobes that are not diffuse, or
+    /// rays that visit all surfaces.
+    std::uint32_t leaveTraversalCostly = 0;
     bool voteByShuffle = false;     ///< the 8 lanes of a subgroup vote by shuffles instead of ballots
     std::uint32_t fewestTeams = 1;  ///< subgroups that keep the device busy
     /// Paths that a lane traces in one dispatch, one after the other; laneCrossingPaths applies where paths

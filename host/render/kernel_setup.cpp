@@ -10,6 +10,12 @@ namespace duolux {
 
 namespace {
 
+/// Whether rays visit the surfaces along them one by one.
+bool visitsSurfaces(const TransportTraits& traits) {
+    return traits.transparency == shared::kTransparencyGeneral ||
+           traits.transparency == shared::kTransparencyCoverage;
+}
+
 shared::DeviceReflectanceMatrix deviceMatrix(const ReflectanceMatrix& m) {
     return {m.m00, m.m01, m.m10, m.m11};
 }
@@ -72,8 +78,9 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
     const auto& [device, deviceScene, scene, settings] = inputs;
     const TransportTraits& traits = deviceScene.transport.traits;
     const Tuning& tuning = deviceScene.tuning;
+    const bool costly = traits.lobes != shared::kLobeDiffuse || visitsSurfaces(traits);
     return {{shared::kSpecWorkgroupSize, tuning.workgroupSize},
-            {shared::kSpecLeaveTraversal, tuning.leaveTraversal},
+            {shared::kSpecLeaveTraversal, costly ? tuning.leaveTraversalCostly : tuning.leaveTraversal},
             {shared::kSpecLeaveNodes, tuning.leaveNodes},
             {shared::kSpecVoteByShuffle, tuning.voteByShuffle},
             {shared::kSpecTransparency, traits.transparency},
@@ -98,8 +105,8 @@ std::vector<Specialization> sceneSpecialization(const RenderInputs& inputs) {
 }
 
 std::uint32_t lanePaths(const DeviceScene& deviceScene) {
-    const bool crossing = deviceScene.transport.traits.transparency == shared::kTransparencyGeneral;
-    return crossing ? deviceScene.tuning.laneCrossingPaths : deviceScene.tuning.lanePaths;
+    const Tuning& tuning = deviceScene.tuning;
+    return visitsSurfaces(deviceScene.transport.traits) ? tuning.laneCrossingPaths : tuning.lanePaths;
 }
 
 }  // namespace duolux

@@ -99,10 +99,10 @@ void connect(inout Connection connection, LightPath path, Outgoing outgoing) {
 // The ray to the camera has met a surface, or nothing more.
 void continueConnection(inout Connection connection, inout LaneSums sums, uvec2 stream, Traversal ray, bool found,
                         uint material) {
-    if (kCameraTransparency == kTransparencyGeneral && found) {
+    if (kVisitsToCamera && found) {
         float before = rowWeighted(connection.arriving);
-        Radiance2 through = matrixApply(transparentAt(material, coverageAt(ray.triangle, material, ray.barycentric)),
-                                        connection.arriving);
+        float coverage = coverageAt(ray.triangle, material, ray.barycentric);
+        Radiance2 through = crossed(connection.arriving, material, coverage, kCameraTransparency);
         // Russian roulette on the loss of displayed radiance; one random number serves the whole ray.
         connection.survival *= connectionSurvival(rowWeighted(through), before);
         connection.arriving = through;

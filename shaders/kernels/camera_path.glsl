@@ -39,9 +39,11 @@ bool passesAll(Path path) {
     return kTransparency == kTransparencyIdentity && !secondColumn;
 }
 
-// Without a second column, the first column carries all importance, except on the camera's own segment.
+// Without a second column, the first column carries all importance, except on the camera's own segment. Behind surfaces
+// of which only a part is there, that segment still carries the same importance for both components.
 ReflectanceMatrix importanceOf(Path path) {
     if (kSecondColumn) return path.importance;
-    float atCamera = onCameraSegment(path) ? 1.0 : 0.0;
-    return ReflectanceMatrix(path.importance.m00, vec3(0.0), path.importance.m10, vec3(atCamera));
+    vec3 second = onCameraSegment(path) ? vec3(1.0) : vec3(0.0);
+    if (kTransparency == kTransparencyCoverage) second = path.scatterings == 0u ? path.importance.m00 : vec3(0.0);
+    return ReflectanceMatrix(path.importance.m00, vec3(0.0), path.importance.m10, second);
 }

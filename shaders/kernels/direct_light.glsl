@@ -81,10 +81,16 @@ void addClosedForm(inout SampleRadiance received, SurfaceHit hit, ReflectanceMat
 }
 
 // The shadow ray has met a surface, or nothing more up to the emitter.
-void continueShadow(inout Shadow shadow, inout SampleRadiance received, Traversal ray, bool found, uint material) {
+void continueShadow(inout Shadow shadow, inout SampleRadiance received, Traversal ray, bool found, uint material,
+                    float coverage) {
+    if (kTransparency == kTransparencyCoverage && found) {
+        shadow.emission = scaled(shadow.emission, vec3(1.0 - coverage));
+        crossSurface(shadow.segment, ray);
+        shadow.pending = coverage < 1.0;
+        return;
+    }
     if (kTransparency == kTransparencyGeneral && found) {
-        float coverage = coverageAt(ray.triangle, material, ray.barycentric);
-        ReflectanceMatrix m = multiply(shadow.importance, transparentAt(material, coverage));
+        ReflectanceMatrix m = crossed(shadow.importance, material, coverage);
         shadow.importance = m;
         crossSurface(shadow.segment, ray);
         shadow.pending = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;

@@ -21,6 +21,9 @@
 #include "shaders/shared/light_tracer_layout.h"
 
 layout(constant_id = kSpecCameraTransparency) const uint kCameraTransparency = kTransparencyGeneral;
+// Whether rays to the camera visit the surfaces along them one by one.
+const bool kVisitsToCamera =
+    kCameraTransparency == kTransparencyGeneral || kCameraTransparency == kTransparencyCoverage;
 layout(constant_id = kSpecFilmBands) const uint kFilmBands = 1u;
 layout(constant_id = kSpecBandPixels) const uint kBandPixels = 1u;
 
@@ -97,7 +100,7 @@ void beginSegment(inout LightPath path, Vertex vertex, vec2 u) {
 // the segment continues.
 bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoing, Traversal ray, Triangle tri) {
     vec3 viewer = directionToCamera(path.segment.origin + path.segment.direction * ray.t);
-    SurfaceHit hit = meetTriangle(path.segment, ray, tri, viewer);
+    SurfaceHit hit = meetTriangle(path.segment, ray, tri, viewer, kTextureGroups);
     vec3 toEmitter = -path.segment.direction;
     float adjoint = materialScatters(hit.material, hit.front) ? shadingAdjoint(hit.point, toEmitter) : 0.0;
     Radiance2 scattered = scaled(matrixApply(opaqueOf(hit.materialIndex), path.flux),
@@ -117,7 +120,7 @@ bool meetSurface(inout LightPath path, inout Vertex vertex, out Outgoing outgoin
     }
 
     if (kTransparency == kTransparencyZero) return false;
-    path.flux = matrixApply(transparentAt(hit.materialIndex, hit.coverage), path.flux);
+    path.flux = crossed(path.flux, hit.materialIndex, hit.coverage, kTransparency);
     crossSurface(path.segment, ray);
     path.crossings += 1u;
     return carried(path.flux) > 0.0;
@@ -140,7 +143,7 @@ Traversal nextRay(LightPath path, Connection connection, inout LaneSums sums) {
     if (toCamera) segment = connection.segment;
     Traversal ray = traversalStart(0u, segment.origin, segment.direction, segment.t, segment.order,
                                    toCamera ? connection.distance : kInfinity,
-                                   toCamera && kCameraTransparency != kTransparencyGeneral);
+                                   toCamera && !kVisitsToCamera);
     ray.nodesLeft = toCamera || onPath;
     return ray;
 }

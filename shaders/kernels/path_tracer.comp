@@ -49,8 +49,7 @@ void endSegment(inout Path path, inout Vertex vertex) {
 
 // The path has met a surface: emission, direct light, a candidate for scattering, and the crossing.
 void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout SampleRadiance received,
-                 Traversal ray, Triangle tri) {
-    SurfaceHit hit = meetTriangle(path.segment, ray, tri, -path.segment.direction);
+                 Traversal ray, Triangle tri, SurfaceHit hit) {
     ReflectanceMatrix onSegment = importanceOf(path);
     ReflectanceMatrix w = onSegment;
     if (kCoverage || kAttenuates) w = scaled(w, hit.unabsorbed * hit.coverage);
@@ -74,7 +73,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
 
     bool passes = false;
     if (kTransparency != kTransparencyZero && canCross(onSegment)) {
-        path.importance = multiply(onSegment, transparentAt(hit.materialIndex, hit.coverage));
+        path.importance = crossed(onSegment, hit.materialIndex, hit.coverage);
         ReflectanceMatrix m = path.importance;
         passes = maxComponent(m.m00 + m.m01 + m.m10 + m.m11) > 0.0;
         crossSurface(path.segment, ray);
@@ -134,10 +133,13 @@ void main() {
             if (!traversalAlive(ray)) {
                 bool found = ray.triangle != kNoTriangle;
                 Triangle tri = fetchTriangle(found ? ray.triangle : 0u);
+                // Shadow rays and paths share one look-up, because lavapipe executes both sides of a branch.
+                uint groups = !found ? 0u : shadow.pending ? kCoverageGroups : kTextureGroups;
+                SurfaceHit hit = meetTriangle(path.segment, ray, tri, -path.segment.direction, groups);
                 if (shadow.pending) {
-                    continueShadow(shadow, received, ray, found, tri.materialFlags & kMaterialMask);
+                    continueShadow(shadow, received, ray, found, hit.materialIndex, hit.coverage);
                 } else if (found) {
-                    meetSurface(path, vertex, shadow, received, ray, tri);
+                    meetSurface(path, vertex, shadow, received, ray, tri, hit);
                 } else {
                     endSegment(path, vertex);
                 }

@@ -47,7 +47,7 @@ TextureValues texturesAt(uint triangle, uint material, uint groups, vec2 barycen
     TextureValues values = noTextures();
     if (kTextureGroups == 0u) return values;
     // A loop, because only loops skip what no lane needs.
-    uint textured = min(fetchTextureRange(material).y, 1u);
+    uint textured = groups == 0u ? 0u : min(fetchTextureRange(material).y, 1u);
     for (uint i = 0u; i < textured; i++) {
         vec2 uv = vec2(0.0), secondUv = vec2(0.0);
         if (kVertexRecords) {
@@ -66,13 +66,16 @@ ReflectanceMatrix sceneTransparent() { return fromDevice(params.transparent); }
 // Whether a ray visits the surfaces along it one by one, including coincident ones.
 const bool kOrdered = kTransparency != kTransparencyZero || kPlanes;
 
+// The textures that say how much of a surface is there.
+const uint kCoverageGroups = kCoverage ? kTextureGroups & (1u << kGroupBase) : 0u;
+
 // How much of a triangle's surface is there at a point.
 float coverageAt(uint triangle, uint materialIndex, vec2 barycentric) {
     if (!kCoverage) return 1.0;
     Material material = fetchMaterial(materialIndex);
     if (kVertexColours) material.alpha *= vertexAlpha(triangle, barycentric);
     if (isTextured(kGroupBase)) {
-        material.alpha *= texturesAt(triangle, materialIndex, 1u << kGroupBase, barycentric).base.w;
+        material.alpha *= texturesAt(triangle, materialIndex, kCoverageGroups, barycentric).base.w;
     }
     return coverageOf(material);
 }
@@ -83,6 +86,18 @@ ReflectanceMatrix transparentAt(uint material, float coverage) {
     if (!kCoverage) return m;
     vec3 rest = vec3(1.0 - coverage);
     return ReflectanceMatrix(m.m00 * coverage + rest, m.m01 * coverage, m.m10 * coverage, m.m11 * coverage + rest);
+}
+
+// W behind a surface.
+ReflectanceMatrix crossed(ReflectanceMatrix w, uint material, float coverage) {
+    if (kTransparency == kTransparencyCoverage) return scaled(w, vec3(1.0 - coverage));
+    return multiply(w, transparentAt(material, coverage));
+}
+
+// Light behind a surface, where surfaces have this kTransparency...
+Radiance2 crossed(Radiance2 light, uint material, float coverage, uint transparency) {
+    if (transparency == kTransparencyCoverage) return scaled(light, vec3(1.0 - coverage));
+    return matrixApply(transparentAt(material, coverage), light);
 }
 
 // What colours of vertices make of the emission of a material with these flags.

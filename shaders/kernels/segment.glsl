@@ -63,8 +63,8 @@ vec3 anisotropyTangent(Triangle tri, uint triangle, vec2 barycentric, vec3 front
     return dot(tangent, tangent) > 1e-6 ? normalize(tangent) : otherwise;
 }
 
-// `viewer`: unit, from the point towards the viewer.
-SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewer) {
+// `viewer`: unit, from the point towards the viewer; `groups`: of the textures that are looked up.
+SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewer, uint groups) {
     SurfaceHit hit;
     hit.materialIndex = tri.materialFlags & kMaterialMask;
     vec3 normal = normalize(cross(tri.v1 - tri.v0, tri.v2 - tri.v0));
@@ -79,7 +79,7 @@ SurfaceHit meetTriangle(Segment segment, Traversal ray, Triangle tri, vec3 viewe
     }
     TextureValues values = noTextures();
     if (kTextureGroups != 0u) {
-        values = texturesAt(ray.triangle, hit.materialIndex, kTextureGroups, ray.barycentric);
+        values = texturesAt(ray.triangle, hit.materialIndex, groups, ray.barycentric);
         applyTextures(hit.material, values);
     }
     hit.emissionTexel = values.emission.xyz * emissionColour(hit.material.flags, colour);

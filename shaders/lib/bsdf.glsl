@@ -329,8 +329,8 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
     return s;
 }
 
-// The fraction of the light that is scattered, per channel. It is approximate, and is 0 only where nothing is scattered.
-// Work is distributed over vertices in proportion to it.
+// The fraction of the light that is scattered, per channel: approximate, and 0 only where nothing is scattered. Work is
+// distributed over vertices in proportion to it.
 vec3 bsdfAlbedo(Bsdf bsdf, BsdfFrame frame, vec3 wo) {
     if (kOnlyDiffuse) return bsdf.baseColor;
     float cosine = abs(dot(frame.shading, wo));

@@ -28,6 +28,8 @@ DUOLUX_CONST uint kTransparencyZero = 0u;  // every T is 0: any surface hides wh
 // Every T passes importance that has scattered unchanged, and importance in the first column at the camera.
 DUOLUX_CONST uint kTransparencyIdentity = 1u;
 DUOLUX_CONST uint kTransparencyGeneral = 2u;  // a product of 2x2 matrices, in order
+// Every T is 0, but surfaces may be there only in part, and light passes unchanged through the rest: a number.
+DUOLUX_CONST uint kTransparencyCoverage = 3u;
 
 // A ReflectanceMatrix: entry ij maps component j to component i, per channel; 0 = invisible, 1 = visible.
 struct DeviceReflectanceMatrix {

@@ -63,8 +63,8 @@ Matrix matrixOf(const glm::vec4 (&entries)[4]) {
 
 TEST(Transport, ConstantsAreTheHosts) {
     ShaderLibrary library = transport();
-    for (const std::uint32_t kind :
-         {shared::kTransparencyZero, shared::kTransparencyIdentity, shared::kTransparencyGeneral}) {
+    for (const std::uint32_t kind : {shared::kTransparencyZero, shared::kTransparencyIdentity,
+                                     shared::kTransparencyGeneral, shared::kTransparencyCoverage}) {
         library.constant(shared::kSpecTransparency, kind);
         EXPECT_EQ(library.evaluate<std::uint32_t>("result = kTransparency;").at(0), kind);
     }

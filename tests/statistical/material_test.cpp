@@ -263,6 +263,61 @@ TEST(Blend, PaneShowsTheWallBehindIt) {
     }
 }
 
+/// A lamp over a floor, with black panes in between that are there by the fractions `alphas`.
+LoadedScene lampBehindPanes(const std::vector<float>& alphas, const Reflectance& reflectance) {
+    SceneBuilder builder;
+    Material floor = white();
+    floor.baseColor = {0.8f, 0.5f, 0.3f};
+    builder.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, builder.add(floor));
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.baseColor = glm::vec3(0.0f);
+    lamp.emission = {glm::vec3(4.0f), glm::vec3(4.0f), Sides::kFront};
+    builder.quad({-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}, builder.add(lamp));
+    float z = 2.0f;
+    for (const float alpha : alphas) {
+        Material pane = lamp;
+        pane.name = "pane";
+        pane.emission = {};
+        pane.alpha = {AlphaMode::kBlend, alpha, 0.5f};
+        builder.quad({-20, -20, z}, {20, -20, z}, {20, 20, z}, {-20, 20, z}, builder.add(pane));
+        z += 0.5f;
+    }
+    LoadedScene& scene = builder.scene;
+    scene.reflectance = reflectance;
+    scene.settings.width = scene.settings.height = 16;
+    scene.settings.bounces = 2;
+    return scene;
+}
+
+/// The floor behind panes gets as much less light as they are there, and so does the camera, by every way.
+TEST(Blend, PanesWeakenLightByAsMuchAsIsThere) {
+    const double through = (1.0 - 0.5) * (1.0 - 0.7);
+    struct View {
+        Camera camera;
+        double factor;
+    };
+    const View views[] = {
+        {{{2, 1, 1}, {0, 0, 0}, {0, 0, 1}, 60.0f}, through},               // of the lit floor
+        {{{2, 1, 3.5f}, {0, 0, 0}, {0, 0, 1}, 60.0f}, through * through},  // through the panes
+        {{{2, 1, 1}, {0, 0, 4}, {0, 0, 1}, 30.0f}, through}};              // of the lamp
+    for (const Integrator integrator : {Integrator::kPathTracer, Integrator::kLightTracer}) {
+        for (const View& view : views) {
+            LoadedScene clear = lampBehindPanes({}, preset("global"));
+            LoadedScene weakened = lampBehindPanes({0.5f, 0.7f}, preset("global"));
+            for (LoadedScene* scene : {&clear, &weakened}) {
+                scene->camera = view.camera;
+                scene->settings.integrator = integrator;
+                scene->settings.spp = 256;
+            }
+            const double expected = view.factor * meanVisible(render(device(), clear).film.resolve());
+            EXPECT_NEAR(meanVisible(render(device(), weakened).film.resolve()) / expected, 1.0, 0.01)
+                << "from z = " << view.camera.position.z
+                << (integrator == Integrator::kLightTracer ? ", light" : "");
+        }
+    }
+}
+
 /// A parallel plate of smooth glass without absorption in uniform light behind it: all inner reflections
 /// together transmit (1 - R) / (1 + R) at normal incidence, where R = ((n - 1) / (n + 1))^2 is that of one
 /// interface.

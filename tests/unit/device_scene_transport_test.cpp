@@ -102,12 +102,28 @@ TEST(Transport, PartialSurfacesKeepTheIdentity) {
         scene.materials[1].alpha = {AlphaMode::kBlend, 0.5f, 0.5f};
         const TransportTraits traits = analyseTransport(scene);
         EXPECT_TRUE(traits.coverage);
-        EXPECT_TRUE(traits.secondColumn);
         const bool identity = opaque == shared::kTransparencyIdentity;
+        EXPECT_EQ(traits.secondColumn, identity);
         EXPECT_EQ(traits.transparency,
-                  identity ? shared::kTransparencyIdentity : shared::kTransparencyGeneral);
-        EXPECT_EQ(traits.cameraTransparency, shared::kTransparencyGeneral);
+                  identity ? shared::kTransparencyIdentity : shared::kTransparencyCoverage);
+        EXPECT_EQ(traits.cameraTransparency,
+                  identity ? shared::kTransparencyGeneral : shared::kTransparencyCoverage);
+        EXPECT_TRUE(traits.invisibleCrosses);
+        EXPECT_TRUE(traits.visibleCrosses);
     }
+    // Where another surface has a T, a number is not enough.
+    Scene scene = sceneWith(*presetReflectance("global"));
+    scene.materials[1].alpha = {AlphaMode::kBlend, 0.5f, 0.5f};
+    scene.materials[0].reflectance = presetReflectance("shadowless");
+    EXPECT_EQ(analyseTransport(scene).transparency, shared::kTransparencyGeneral);
+    EXPECT_TRUE(analyseTransport(scene).secondColumn);
+    // O may have a second column all the same.
+    Reflectance reflectance = *presetReflectance("global");
+    reflectance.opaque.m01 = glm::vec3(0.1f);
+    scene = sceneWith(reflectance);
+    scene.materials[1].alpha = {AlphaMode::kBlend, 0.5f, 0.5f};
+    EXPECT_EQ(analyseTransport(scene).transparency, shared::kTransparencyCoverage);
+    EXPECT_TRUE(analyseTransport(scene).secondColumn);
     // Invisible importance that a crossing makes visible is stopped by the next surface.
     Reflectance crossing = *presetReflectance("local");
     crossing.transparent.m01 = glm::vec3(0.1f);

@@ -39,6 +39,7 @@ TEST(Tuning, FollowsTheKindOfDevice) {
     EXPECT_EQ(cpu.kernel, KernelKind::kRefilling);
     EXPECT_EQ(cpu.workgroupSize, 8u);
     EXPECT_EQ(cpu.leaveTraversal, 4u);
+    EXPECT_EQ(cpu.leaveTraversalCostly, 0u);
     EXPECT_EQ(cpu.leaveNodes, 3u);
     EXPECT_TRUE(cpu.voteByShuffle);
     const Tuning gpu = chooseTuning(deviceOf(DeviceKind::kGpu), {});
@@ -47,6 +48,7 @@ TEST(Tuning, FollowsTheKindOfDevice) {
     EXPECT_EQ(gpu.lanes, 32u);
     EXPECT_EQ(gpu.workgroupSize, 64u);
     EXPECT_EQ(gpu.leaveTraversal, 16u);
+    EXPECT_EQ(gpu.leaveTraversalCostly, 16u);
     EXPECT_FALSE(gpu.voteByShuffle);
     DeviceInfo wide = deviceOf(DeviceKind::kCpu);
     wide.subgroupSize = 16;
@@ -72,6 +74,7 @@ TEST(Tuning, WhatIsAskedForTakesTheFirstPlace) {
         EXPECT_EQ(plain.kernel, KernelKind::kPlain);
         // At a threshold of 0 lanes, no vote ends a loop.
         EXPECT_EQ(plain.leaveTraversal, 0u);
+        EXPECT_EQ(plain.leaveTraversalCostly, 0u);
         EXPECT_EQ(plain.leaveNodes, 0u);
     }
 }
