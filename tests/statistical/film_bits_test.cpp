@@ -40,7 +40,7 @@ constexpr Expected kExpected[] = {
     {"spot", "one-bounce", 0xc3c08a030d0294a6, 0xb2ca4cbb38ed595f},
     {"uplight", "local", 0xe1f6ad4c7dae8d98, 0x451f18fefc103ee9},
     {"uplight", "global", 0xad692ff7de5bca8c, 0xdf149a3e3ecd44e7},
-    {"uplight", "shadowless", 0x3acfdd074400612d, 0xce51122f2a4816a4},
+    {"uplight", "shadowless", 0x3acfdd074400612d, 0x769131d8adf5f16e},
     {"uplight", "one-bounce", 0x30a055a029cdab66, 0x23914182f5dbdb0d},
     {"two-spheres", "local", 0xf326de607007ed4d, 0xfac12c892dd69e88},
     {"two-spheres", "global", 0xaeeed8c35f8bc96d, 0x54a0becb1fc2b41b},
