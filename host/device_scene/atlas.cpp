@@ -106,7 +106,7 @@ void storeBlocks(const Image& image, glm::uvec4* out) {
     parallelFor(rows, 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
             for (std::size_t column = 0; column < columns; ++column) {
-                glm::uvec4& texel = out[row * columns + column];
+                glm::uvec4 texel;
                 for (std::size_t k = 0; k < 4; ++k) {
                     const std::size_t x = std::min<std::size_t>(2 * column + k % 2, image.width - 1);
                     const std::size_t y = std::min<std::size_t>(2 * row + k / 2, image.height - 1);
@@ -114,6 +114,7 @@ void storeBlocks(const Image& image, glm::uvec4* out) {
                     texel[static_cast<int>(k)] = p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 |
                                                  std::uint32_t{p[3]} << 24;
                 }
+                out[row * columns + column] = texel;
             }
         }
     });
@@ -211,8 +212,7 @@ AtlasPlan planAtlas(const Scene& scene, std::uint64_t mostTexels) {
     return plan;
 }
 
-std::vector<glm::uvec4> makeAtlas(const AtlasPlan& plan) {
-    std::vector<glm::uvec4> texels(plan.texels);
+void writeAtlas(const AtlasPlan& plan, std::span<glm::uvec4> texels) {
     for (const AtlasImage& placed : plan.images) {
         Image smaller;
         if (placed.halvings > 0) smaller = shrunk(*placed.image, placed.srgb, placed.size());
@@ -220,7 +220,6 @@ std::vector<glm::uvec4> makeAtlas(const AtlasPlan& plan) {
         glm::uvec4* const out = texels.data() + placed.firstTexel;
         isFloat(image) ? storeFloats(image, out) : storeBlocks(image, out);
     }
-    return texels;
 }
 
 }  // namespace duolux

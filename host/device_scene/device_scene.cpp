@@ -126,17 +126,24 @@ struct SceneRecords {
     std::span<const shared::DeviceMaterial> materials;
     std::span<const shared::DeviceEmitter> emitters;
     std::span<const shared::DeviceTexture> textures;
-    std::span<const glm::uvec4> atlas;
     std::span<const shared::DeviceCorners> corners;
     std::span<const shared::DeviceVertex> vertices;
     std::span<const glm::vec4> secondUvs;
+    AtlasPlan atlas;
 
     std::uint64_t bytes() const {
-        const auto& [n, t, m, c, p, f, e, x, a, k, v, s] = *this;
+        const auto& [n, t, m, c, p, f, e, x, k, v, s, a] = *this;
         const auto sum = [](const auto&... spans) { return (std::uint64_t{spans.size_bytes()} + ...); };
-        return sum(n, t, m, c, p, f, e, x, a, k, v, s);
+        return sum(n, t, m, c, p, f, e, x, k, v, s) + a.texels * sizeof(glm::uvec4);
     }
 };
+
+Buffer uploadAtlas(const Device& device, const AtlasPlan& plan) {
+    const auto write = [&](std::span<std::byte> out) {
+        writeAtlas(plan, {reinterpret_cast<glm::uvec4*>(out.data()), plan.texels});
+    };
+    return Buffer::upload(device, BufferUse::kTexels, plan.texels * sizeof(glm::uvec4), "images", write);
+}
 
 SceneBuffers uploadRecords(const Device& device, Layout layout, const SceneRecords& records) {
     using Use = BufferUse;
@@ -151,7 +158,7 @@ SceneBuffers uploadRecords(const Device& device, Layout layout, const SceneRecor
         .materials = Buffer::upload(device, Use::kTexels, records.materials, "materials"),
         .emitters = Buffer::upload(device, Use::kTexels, records.emitters, "emitters"),
         .textures = Buffer::upload(device, Use::kTexels, records.textures, "textures"),
-        .atlas = Buffer::upload(device, Use::kTexels, records.atlas, "images"),
+        .atlas = uploadAtlas(device, records.atlas),
         .corners = Buffer::upload(device, Use::kTexels, records.corners, "corners of triangles"),
         .vertices = Buffer::upload(device, Use::kTexels, records.vertices, "vertices"),
         .secondUvs = Buffer::upload(device, Use::kTexels, records.secondUvs, "texture coordinates"),
@@ -187,17 +194,15 @@ DeviceScene assemble(const Device& device, const Scene& scene, MaterialsAndEmitt
                          .materials = prepared.materials,
                          .emitters = prepared.table.records,
                          .textures = {},
-                         .atlas = {},
                          .corners = vertices.corners,
                          .vertices = vertices.vertices,
-                         .secondUvs = vertices.secondUvs};
+                         .secondUvs = vertices.secondUvs,
+                         .atlas = {}};
     const std::uint64_t mostAtlasTexels = largestAtlas(device.info(), records.bytes());
-    AtlasPlan plan = planAtlas(scene, mostAtlasTexels);
-    const std::vector<glm::uvec4> atlas = makeAtlas(plan);
-    prepared.setTextures(scene, plan);
+    records.atlas = planAtlas(scene, mostAtlasTexels);
+    prepared.setTextures(scene, records.atlas);
     noteTriangles(prepared, geometry, surfaces, trees);
     records.textures = prepared.textures;
-    records.atlas = atlas;
     tuning.layout = layoutThatFits(device.info(), tuning.layout, choice,
                                    std::max(records.nodes.size_bytes(), records.triangles.size_bytes()));
     requireDeviceMemory(device.info(), records.bytes(), scene);
@@ -209,7 +214,7 @@ DeviceScene assemble(const Device& device, const Scene& scene, MaterialsAndEmitt
         .hasVertexColours = !triangles.colours.empty(),
         .hasPlanes = surfaces.used(),
         .vertexNeeds = std::move(needs),
-        .atlas = std::move(plan),
+        .atlas = records.atlas,
         .mostAtlasTexels = mostAtlasTexels,
         .emitterRoot = trees.emitterRoot,
         .emitterBounds = widenedBounds(geometry, prepared.triangles),

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,9 @@ std::uint64_t largestAtlas(const DeviceInfo& device, std::uint64_t otherBytes);
 /// pixels. Throws DeviceError if even these do not fit.
 AtlasPlan planAtlas(const Scene& scene, std::uint64_t mostTexels);
 
-/// The texels of the atlas. Images are shrunk by the mean over the area of each pixel, in linear light.
-std::vector<glm::uvec4> makeAtlas(const AtlasPlan& plan);
+/// Writes the texels of the atlas, plan.texels in number. Images are shrunk by the mean over the area of each
+/// pixel, in linear light.
+void writeAtlas(const AtlasPlan& plan, std::span<glm::uvec4> texels);
 
 /// The lookups of materials.
 struct TextureTable {

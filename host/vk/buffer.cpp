@@ -78,6 +78,10 @@ void adviseHugePages(void* begin, std::uint64_t size) {
     if (first < last) static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
 }
 
+Buffer::Fill copyOf(std::span<const std::byte> bytes) {
+    return [bytes](std::span<std::byte> out) { std::memcpy(out.data(), bytes.data(), bytes.size()); };
+}
+
 }  // namespace
 
 Buffer::Buffer(const Device& device, BufferUse use, TreeUse treeUse, std::uint64_t size, Memory memory,
@@ -136,8 +140,8 @@ Buffer::~Buffer() = default;
 Buffer::Buffer(Buffer&& other) noexcept = default;
 Buffer& Buffer::operator=(Buffer&& other) noexcept = default;
 
-void Buffer::write(std::span<const std::byte> bytes) const {
-    std::memcpy(mapped_, bytes.data(), bytes.size());
+void Buffer::write(std::uint64_t size, const Fill& fill) const {
+    fill({static_cast<std::byte*>(mapped_), size});
     if (coherent_) return;
     try {
         device_->handles().device.flushMappedMemoryRanges(
@@ -149,12 +153,17 @@ void Buffer::write(std::span<const std::byte> bytes) const {
 
 Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                       std::string_view name, TreeUse treeUse) {
-    Buffer buffer(device, use, treeUse, bytes.size(), Memory::kDevice, name);
-    if (bytes.empty()) return buffer;
+    return upload(device, use, bytes.size(), name, copyOf(bytes), treeUse);
+}
+
+Buffer Buffer::upload(const Device& device, BufferUse use, std::uint64_t size, std::string_view name,
+                      const Fill& fill, TreeUse treeUse) {
+    Buffer buffer(device, use, treeUse, size, Memory::kDevice, name);
+    if (size == 0) return buffer;
     if (buffer.mapped_ != nullptr) {
-        buffer.write(bytes);
+        buffer.write(size, fill);
     } else {
-        buffer.writeStaged(bytes, name);
+        buffer.writeStaged(size, fill, name);
     }
     return buffer;
 }
@@ -162,16 +171,16 @@ Buffer Buffer::upload(const Device& device, BufferUse use, std::span<const std::
 Buffer Buffer::uploadStaged(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                             std::string_view name) {
     Buffer buffer(device, use, TreeUse::kNone, bytes.size(), Memory::kDevice, name);
-    if (!bytes.empty()) buffer.writeStaged(bytes, name);
+    if (!bytes.empty()) buffer.writeStaged(bytes.size(), copyOf(bytes), name);
     return buffer;
 }
 
-void Buffer::writeStaged(std::span<const std::byte> bytes, std::string_view name) const {
-    const Buffer staging(*device_, BufferUse::kUnbound, TreeUse::kNone, bytes.size(), Memory::kStaging, name);
-    staging.write(bytes);
+void Buffer::writeStaged(std::uint64_t size, const Fill& fill, std::string_view name) const {
+    const Buffer staging(*device_, BufferUse::kUnbound, TreeUse::kNone, size, Memory::kStaging, name);
+    staging.write(size, fill);
     // The end of the commands makes the copied data visible to all later reads.
     runOnce(*device_, fmt::format("uploading {}", name),
-            [&](const Commands& commands) { commands.copy(staging, 0, *this, 0, bytes.size()); });
+            [&](const Commands& commands) { commands.copy(staging, 0, *this, 0, size); });
 }
 
 Buffer Buffer::device(const Device& device, BufferUse use, std::uint64_t size, std::string_view name,

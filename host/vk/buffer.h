@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -31,6 +32,13 @@ class Buffer {
     /// not suffice, MemoryError if memory does not.
     static Buffer upload(const Device& device, BufferUse use, std::span<const std::byte> bytes,
                          std::string_view name, TreeUse treeUse = TreeUse::kNone);
+
+    /// Writes memory that the device may see: every byte, each once, without reading any.
+    using Fill = std::function<void(std::span<std::byte>)>;
+
+    /// Like upload(), without the bytes in memory of their own. `size`: in bytes.
+    static Buffer upload(const Device& device, BufferUse use, std::uint64_t size, std::string_view name,
+                         const Fill& fill, TreeUse treeUse = TreeUse::kNone);
 
     /// Like upload(), but always through a staging buffer, so that tests cover this case on every device.
     static Buffer uploadStaged(const Device& device, BufferUse use, std::span<const std::byte> bytes,
@@ -70,8 +78,8 @@ class Buffer {
     Buffer(const Device& device, BufferUse use, TreeUse treeUse, std::uint64_t size, Memory memory,
            std::string_view name);
 
-    void write(std::span<const std::byte> bytes) const;
-    void writeStaged(std::span<const std::byte> bytes, std::string_view name) const;
+    void write(std::uint64_t size, const Fill& fill) const;
+    void writeStaged(std::uint64_t size, const Fill& fill, std::string_view name) const;
 
     const Device* device_;
     BufferUse use_;

@@ -133,11 +133,13 @@ glm::dvec4 expectedValue(const Scene& scene, const duolux::Texture& texture, glm
 TEST(Textures, LookupsAreThoseOfDoublePrecision) {
     const Scene scene = randomTextures();
     const AtlasPlan plan = planAtlas(scene, 1 << 20);
-    const std::vector<glm::uvec4> atlas = makeAtlas(plan);
+    std::vector<glm::uvec4> atlas(plan.texels);
+    writeAtlas(plan, atlas);
     const TextureTable table = makeTextureTable(scene, plan);
     ASSERT_EQ(table.records.size(), scene.materials.size());
     ShaderLibrary library("shaders/lib/texture.glsl");
-    library.texels("fetchTextureTexel", std::span(table.records)).texels("fetchAtlasTexel", std::span(atlas));
+    library.texels("fetchTextureTexel", std::span(table.records))
+        .texels("fetchAtlasTexel", std::span(std::as_const(atlas)));
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec2> uvs;
     for (const glm::vec2 u : randomSquare(1 << 15, 9)) {
@@ -228,10 +230,11 @@ TEST(Textures, LookupsUseTheirOwnCoordinates) {
     const TextureTable table = makeTextureTable(scene, plan);
     std::vector<shared::DeviceMaterial> materials = makeMaterialRecords(scene);
     materials[0].textureCount = table.ranges[0].count;
-    const std::vector<glm::uvec4> atlas = makeAtlas(plan);
+    std::vector<glm::uvec4> atlas(plan.texels);
+    writeAtlas(plan, atlas);
     ShaderLibrary library("shaders/lib/material_textures.glsl");
     library.texels("fetchTextureTexel", std::span(table.records))
-        .texels("fetchAtlasTexel", std::span(atlas))
+        .texels("fetchAtlasTexel", std::span(std::as_const(atlas)))
         .texels("fetchMaterialTexel", std::span(std::as_const(materials)))
         .constant(shared::kSpecTextureGroups, table.groups);
     const glm::vec2 values = library.evaluate<glm::vec2>(
@@ -269,10 +272,11 @@ TEST(Textures, EveryInputReachesItsComponent) {
         materials[i].firstTexture = table.ranges[i].first;
         materials[i].textureCount = table.ranges[i].count;
     }
-    const std::vector<glm::uvec4> atlas = makeAtlas(plan);
+    std::vector<glm::uvec4> atlas(plan.texels);
+    writeAtlas(plan, atlas);
     ShaderLibrary library("shaders/lib/material_textures.glsl");
     library.texels("fetchTextureTexel", std::span(table.records))
-        .texels("fetchAtlasTexel", std::span(atlas))
+        .texels("fetchAtlasTexel", std::span(std::as_const(atlas)))
         .texels("fetchMaterialTexel", std::span(std::as_const(materials)))
         .constant(shared::kSpecTextureGroups, table.groups);
     // The byte of a component, by hand: inputs in the order of MaterialInput.
