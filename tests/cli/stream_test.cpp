@@ -174,7 +174,7 @@ TEST_F(Signals, TheSecondEndsTheProgramAtOnce) {
     ASSERT_EQ(::mkfifo((folder_ / "f.exr").c_str(), 0600), 0);
     // A slow reader.
     const ProgramResult result = shell(
-        "(while dd bs=4k count=1 status=none; do sleep 0.1; done) <f.exr >/dev/null & "
+        "(while [ $(dd bs=4k count=1 status=none | wc -c) -gt 0 ]; do sleep 0.1; done) <f.exr & "
         "$R -o f.exr --size 512x512 --spp 10000000 & sleep 3; kill -TERM $!; sleep 2; kill -INT $!; "
         "wait $!");
     EXPECT_EQ(result.status, 130);
