@@ -22,6 +22,11 @@ Vector directionOf(double cosine) {
     return {std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), 0.0, cosine};
 }
 
+/// Of GGX, along and across the tangent.
+struct Alpha {
+    double x, y;
+};
+
 /// Smith's Lambda of GGX.
 double lambda(double alpha, double cosine) {
     const double tangent2 = (1.0 - cosine * cosine) / (cosine * cosine);
@@ -32,26 +37,30 @@ double lambda(double alpha, double cosine) {
 /// Dupuy and Benyoub (2023), by the midpoint rule. Normals near the horizon are rare, but steep: the polar
 /// samples are dense there.
 template <typename Visit>
-double meanOverVisibleNormals(double alpha, const Vector& direction, const Visit& visit) {
+double meanOverVisibleNormals(const Alpha& alpha, const Vector& direction, const Visit& visit) {
     constexpr int kPolar = 128, kAzimuthal = 16;
-    const double length = std::sqrt(alpha * alpha * direction.x * direction.x + direction.z * direction.z);
-    const Vector stretched{alpha * direction.x / length, 0.0, direction.z / length};
+    const double length =
+        std::sqrt(alpha.x * alpha.x * direction.x * direction.x +
+                  alpha.y * alpha.y * direction.y * direction.y + direction.z * direction.z);
+    const Vector stretched{alpha.x * direction.x / length, alpha.y * direction.y / length,
+                           direction.z / length};
+    // In the plane of the tangent all is symmetric in y: half of the circle.
+    const int azimuths = direction.y == 0.0 ? kAzimuthal : 2 * kAzimuthal;
     double sum = 0.0;
     for (int i = 0; i < kPolar; ++i) {
         const double root = (i + 0.5) / kPolar, weight = 2.0 * root;
         const double z = root * root * (1.0 + stretched.z) - stretched.z;
         const double r = std::sqrt(std::max(1.0 - z * z, 0.0));
-        for (int k = 0; k < kAzimuthal; ++k) {
-            // Symmetric in y: half of the circle.
+        for (int k = 0; k < azimuths; ++k) {
             const double phi = kPi * (k + 0.5) / kAzimuthal;
-            Vector h{(r * std::cos(phi) + stretched.x) * alpha, r * std::sin(phi) * alpha,
+            Vector h{(r * std::cos(phi) + stretched.x) * alpha.x, (r * std::sin(phi) + stretched.y) * alpha.y,
                      std::max(z + stretched.z, 0.0)};
             const double scale = 1.0 / std::sqrt(dot(h, h));
             h = {h.x * scale, h.y * scale, h.z * scale};
             sum += weight * visit(h, dot(direction, h));
         }
     }
-    return sum / (kPolar * kAzimuthal);
+    return sum / (kPolar * azimuths);
 }
 
 /// Masking and shadowing of both directions over the masking of one, where `other` is on the same side.
@@ -81,9 +90,31 @@ ReflectionAlbedo reflectionAlbedo(double cosine, double roughness) {
     const double alpha = alphaOf(roughness);
     const Vector wo = directionOf(cosine);
     const auto mean = [&](bool grazing) {
-        return meanOverVisibleNormals(alpha, wo, [&](const Vector& h, double c) {
+        return meanOverVisibleNormals({alpha, alpha}, wo, [&](const Vector& h, double c) {
             const double m = std::clamp(1.0 - c, 0.0, 1.0);
             return shadowing(alpha, cosine, 2.0 * c * h.z - cosine) * (grazing ? m * m * m * m * m : 1.0);
+        });
+    };
+    const double all = mean(false), atGrazing = mean(true);
+    return {all - atGrazing, atGrazing};
+}
+
+ReflectionAlbedo stretchedAlbedo(double cosine, double azimuth, double roughness, double anisotropy) {
+    const double across = alphaOf(roughness);
+    const Alpha alpha{across + (1.0 - across) * anisotropy * anisotropy, across};
+    const double sine = directionOf(cosine).x;
+    const Vector wo{sine * azimuth, azimuth < 1.0 ? sine * std::sqrt(1.0 - azimuth * azimuth) : 0.0, cosine};
+    const auto lambdaOf = [&](const Vector& w) {
+        const double x = alpha.x * w.x / w.z, y = alpha.y * w.y / w.z;
+        return 0.5 * (std::sqrt(1.0 + x * x + y * y) - 1.0);
+    };
+    const double first = lambdaOf(wo);
+    const auto mean = [&](bool grazing) {
+        return meanOverVisibleNormals(alpha, wo, [&](const Vector& h, double c) {
+            const Vector wi{2.0 * c * h.x - wo.x, 2.0 * c * h.y - wo.y, 2.0 * c * h.z - wo.z};
+            if (wi.z <= 0.0) return 0.0;
+            const double m = std::clamp(1.0 - c, 0.0, 1.0);
+            return (1.0 + first) / (1.0 + first + lambdaOf(wi)) * (grazing ? m * m * m * m * m : 1.0);
         });
     };
     const double all = mean(false), atGrazing = mean(true);
@@ -93,7 +124,7 @@ ReflectionAlbedo reflectionAlbedo(double cosine, double roughness) {
 double glassAlbedo(double cosine, double roughness, double eta) {
     const double alpha = alphaOf(roughness);
     const Vector wo = directionOf(cosine);
-    return meanOverVisibleNormals(alpha, wo, [&](const Vector& h, double c) {
+    return meanOverVisibleNormals({alpha, alpha}, wo, [&](const Vector& h, double c) {
         const double reflected = fresnel(c, eta);
         const double byReflection = shadowing(alpha, cosine, 2.0 * c * h.z - cosine);
         if (reflected >= 1.0) return byReflection;

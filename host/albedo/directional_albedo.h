@@ -13,6 +13,11 @@ struct ReflectionAlbedo {
 };
 ReflectionAlbedo reflectionAlbedo(double cosine, double roughness);
 
+/// The same of microfacets that are stretched along the tangent: the alphas are (mix(roughness^2, 1,
+/// anisotropy^2), roughness^2). `azimuth`: |cos| of the direction's azimuth to the tangent; `anisotropy`:
+/// 0..1.
+ReflectionAlbedo stretchedAlbedo(double cosine, double azimuth, double roughness, double anisotropy);
+
 /// GGX reflection and refraction of a dielectric by single scattering. `eta`: index of refraction of the
 /// other side relative to that of the direction, > 0.
 double glassAlbedo(double cosine, double roughness, double eta);

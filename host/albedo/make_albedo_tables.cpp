@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <numbers>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,6 +23,20 @@ using namespace duolux::shared;
 struct Pair {
     double first = 0.0, second = 0.0;
 };
+
+/// Means over the azimuth of interpolation between the knots of its |cosine|: the weights of the knots.
+std::vector<double> azimuthWeights() {
+    constexpr int kSteps = 4096;
+    std::vector<double> weights(kAlbedoAzimuthCells + 1);
+    for (int i = 0; i < kSteps; ++i) {
+        const double place =
+            std::cos(0.5 * std::numbers::pi * (i + 0.5) / kSteps) * static_cast<double>(kAlbedoAzimuthCells);
+        const auto cell = static_cast<std::size_t>(place);
+        weights[cell] += (1.0 - (place - static_cast<double>(cell))) / kSteps;
+        weights[cell + 1] += (place - static_cast<double>(cell)) / kSteps;
+    }
+    return weights;
+}
 
 /// A function of cosine and roughness at the knots of a grid.
 using Function = std::function<Pair(double cosine, double roughness)>;
@@ -83,6 +99,21 @@ class Tables {
         for (std::uint32_t j = 0; j < grid.cells(); ++j)
             addTexel(grid.mean(j), {}, grid.mean(j + 1), {});
     }
+    /// The means over the azimuth, too. `grids`: at its knots.
+    void addMeans(std::span<const Grid> grids) {
+        const std::vector<double> weights = azimuthWeights();
+        const auto mean = [&](std::uint32_t j) {
+            Pair sum;
+            for (std::size_t k = 0; k < grids.size(); ++k) {
+                const Pair one = grids[k].mean(j);
+                sum.first += weights[k] * one.first;
+                sum.second += weights[k] * one.second;
+            }
+            return sum;
+        };
+        for (std::uint32_t j = 0; j < grids[0].cells(); ++j)
+            addTexel(mean(j), {}, mean(j + 1), {});
+    }
 
     std::size_t texels() const { return words_.size() / 4; }
     std::string text() const {
@@ -137,14 +168,29 @@ int main(int argc, char** argv) {
             return Pair{glassAlbedo(cosine, roughness, ior), glassAlbedo(cosine, roughness, 1.0 / ior)};
         });
     }
+    std::vector<Grid> stretched;
+    for (std::uint32_t t = 0; t <= kAlbedoAnisotropyCells; ++t) {
+        for (std::uint32_t k = 0; k <= kAlbedoAzimuthCells; ++k) {
+            stretched.emplace_back(kAlbedoStretchedCells, [&](double cosine, double roughness) {
+                const ReflectionAlbedo albedo =
+                    stretchedAlbedo(cosine, static_cast<double>(k) / kAlbedoAzimuthCells, roughness,
+                                    static_cast<double>(t) / kAlbedoAnisotropyCells);
+                return Pair{albedo.atNormal, albedo.atGrazing};
+            });
+        }
+    }
     Tables tables;
     tables.addCells(reflection);
     tables.addCells(sheen);
     for (const Grid& slice : glass)
         tables.addCells(slice);
+    for (const Grid& slice : stretched)
+        tables.addCells(slice);
     tables.addMeans(reflection);
     for (const Grid& slice : glass)
         tables.addMeans(slice);
+    for (std::uint32_t t = 0; t <= kAlbedoAnisotropyCells; ++t)
+        tables.addMeans(std::span(stretched).subspan(t * (kAlbedoAzimuthCells + 1), kAlbedoAzimuthCells + 1));
     if (tables.texels() != kAlbedoTexels) {
         fmt::print(stderr, "make_albedo_tables: {} texels, but albedo_layout.h says {}\n", tables.texels(),
                    kAlbedoTexels);

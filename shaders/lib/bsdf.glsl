@@ -53,9 +53,9 @@ vec3 coated(vec3 base, Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, vec3 o, vec
 
 // f of the base on the side of wo. Directions in the frame of the shading normal, above its horizon.
 vec3 baseEvaluate(Bsdf bsdf, vec3 wo, vec3 wi) {
-    vec2 albedoO = reflectionAlbedo(wo.z, bsdf.roughness);
-    vec2 albedoI = reflectionAlbedo(wi.z, bsdf.roughness);
-    vec2 mean = reflectionMeanAlbedo(bsdf.roughness);
+    vec2 albedoO = facetAlbedo(bsdf, wo);
+    vec2 albedoI = facetAlbedo(bsdf, wi);
+    vec2 mean = facetMeanAlbedo(bsdf);
     Loss loss = Loss(1.0 - albedoO.x - albedoO.y, 1.0 - albedoI.x - albedoI.y, 1.0 - mean.x - mean.y);
     vec3 h = normalize(wo + wi);
     bool smoothFacets = isSmooth(bsdf);
@@ -76,7 +76,7 @@ vec3 baseEvaluate(Bsdf bsdf, vec3 wo, vec3 wi) {
         vec2 mean2 = glassMeanLoss(bsdf);
         float reflected = 0.0;
         if (!smoothFacets) {
-            Loss lost = Loss(glassLoss(bsdf, wo.z).x, glassLoss(bsdf, wi.z).x, mean2.x);
+            Loss lost = Loss(glassLoss(bsdf, wo).x, glassLoss(bsdf, wi).x, mean2.x);
             reflected = (1.0 - glassSeveralThrough(bsdf, mean2)) * severalEvaluate(lost);
         }
         f += glassFraction(bsdf) * vec3(single * dielectricFresnel(cosine, bsdf.eta) + reflected);
@@ -89,7 +89,7 @@ vec3 throughEvaluate(Bsdf bsdf, vec3 wo, vec3 wi) {
     if (isSmooth(bsdf)) return vec3(0.0);
     vec2 mean = glassMeanLoss(bsdf);
     float several = glassSeveralThrough(bsdf, mean) *
-                    severalEvaluate(Loss(glassLoss(bsdf, wo.z).x, glassLoss(bsdf, -wi.z).y, mean.y));
+                    severalEvaluate(Loss(glassLoss(bsdf, wo).x, glassLoss(bsdf, wi).y, mean.y));
     // Radiance grows with the square of the index of refraction: Veach 1997, section 5.2.
     float growth = isThin(bsdf) ? 1.0 : 1.0 / (bsdf.eta * bsdf.eta);
     return glassFraction(bsdf) * (glassTransmit(bsdf, wo, wi) + bsdf.baseColor * (several * growth));
@@ -135,13 +135,13 @@ struct Strategies {
     float refracted;  // of `facets`: the fraction that is glass, refracted with the probability 1 - Fresnel reflectance
 };
 
-// In proportion to what each scatters, in its largest channel. `cosine`, `toCoat`: of wo to the shading normal and to
-// that of the clearcoat.
-Strategies bsdfStrategies(Bsdf bsdf, float cosine, float toCoat, uint mode) {
-    float c = max(cosine, 1e-3);
+// In proportion to what each scatters, in its largest channel. `local`: wo; `toCoat`: its cosine to the normal of the
+// clearcoat.
+Strategies bsdfStrategies(Bsdf bsdf, vec3 local, float toCoat, uint mode) {
+    vec3 o = vec3(local.xy, max(local.z, 1e-3));
     bool smoothFacets = isSmooth(bsdf);
-    vec2 single = reflectionAlbedo(c, bsdf.roughness);
-    vec2 mean = reflectionMeanAlbedo(bsdf.roughness);
+    vec2 single = facetAlbedo(bsdf, o);
+    vec2 mean = facetMeanAlbedo(bsdf);
     float meanLoss = 1.0 - mean.x - mean.y;
     float loss = smoothFacets ? 0.0 : 1.0 - single.x - single.y;
     float metal = metalFraction(bsdf);
@@ -165,7 +165,7 @@ Strategies bsdfStrategies(Bsdf bsdf, float cosine, float toCoat, uint mode) {
     Strategies s = Strategies(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     if (kGlass) {
         vec2 meanLosses = glassMeanLoss(bsdf);
-        float lost = smoothFacets ? 0.0 : glassLoss(bsdf, c).x;
+        float lost = smoothFacets ? 0.0 : glassLoss(bsdf, o).x;
         float x = glassSeveralThrough(bsdf, meanLosses);
         facets += glass * (1.0 - lost);
         spread += glass * lost * (1.0 - x);
@@ -174,7 +174,7 @@ Strategies bsdfStrategies(Bsdf bsdf, float cosine, float toCoat, uint mode) {
     }
     float sheen = 0.0;
     float coat = 0.0;
-    if (kSheen && isOutside(bsdf)) sheen = sheenAlbedo(bsdf, c);
+    if (kSheen && isOutside(bsdf)) sheen = sheenAlbedo(bsdf, o.z);
     if (kClearcoat && isOutside(bsdf)) coat = (1.0 - sheen) * clearcoatAlbedo(bsdf, max(toCoat, 1e-3));
     float base = 1.0 - sheen - coat;
     s.cosine = base * spread;
@@ -231,7 +231,7 @@ float strategiesPdf(Strategies s, Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 o, v
 float bsdfPdf(Bsdf bsdf, BsdfFrame frame, vec3 wo, vec3 wi, uint mode) {
     if (kOnlyDiffuse) return diffusePdf(normalOfMode(frame, mode), wi);
     vec3 o = toShadingFrame(frame, wo);
-    Strategies s = bsdfStrategies(bsdf, o.z, coatCosine(frame, wo, o.z), mode);
+    Strategies s = bsdfStrategies(bsdf, o, coatCosine(frame, wo, o.z), mode);
     return strategiesPdf(s, bsdf, frame, wo, aboveHorizon(o), wi, toShadingFrame(frame, wi), mode);
 }
 
@@ -263,7 +263,7 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
     if (!kOnlyDiffuse) {
         vec3 local = toShadingFrame(frame, wo);
         vec3 o = aboveHorizon(local);
-        Strategies strategies = bsdfStrategies(bsdf, local.z, coatCosine(frame, wo, local.z), mode);
+        Strategies strategies = bsdfStrategies(bsdf, local, coatCosine(frame, wo, local.z), mode);
         bool fromSheen = kSheen && choice >= strategies.cosine && choice < strategies.cosine + strategies.sheen;
         float rest = choice - strategies.cosine - strategies.sheen;
         bool fromFacets = rest >= 0.0 && (rest < strategies.facets || strategies.clearcoat + strategies.through <= 0.0);

@@ -73,6 +73,12 @@ std::vector<MaterialCase> whiteCases() {
                        m.roughness = 0.6f;
                        m.clearcoat = 1.0f;
                    }),
+            caseOf("StretchedMetal",
+                   [](Material& m) {
+                       m.metallic = 1.0f;
+                       m.roughness = 0.4f;
+                       m.anisotropy = 0.8f;
+                   }),
             caseOf("Sheen",
                    [](Material& m) {
                        m.sheenColor = glm::vec3(1.0f);

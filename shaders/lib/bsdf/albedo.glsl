@@ -4,6 +4,7 @@
 #ifndef DUOLUX_LIB_BSDF_ALBEDO_GLSL
 #define DUOLUX_LIB_BSDF_ALBEDO_GLSL
 
+#include "shaders/lib/bsdf/bsdf_types.glsl"
 #include "shaders/lib/warp.glsl"
 #include "shaders/shared/albedo_layout.h"
 
@@ -36,6 +37,45 @@ vec2 reflectionAlbedo(float cosine, float roughness) {
     return albedoAt(kAlbedoReflection, kAlbedoCells, cosine, roughness);
 }
 vec2 reflectionMeanAlbedo(float roughness) { return meanAlbedoAt(kAlbedoReflectionMean, kAlbedoCells, roughness); }
+
+// The anisotropy that stretches alpha from y to x, as in KHR_materials_anisotropy.
+float anisotropyOf(vec2 alpha) {
+    return sqrt(clamp((alpha.x - alpha.y) / max(1.0 - alpha.y, 1e-6), 0.0, 1.0));
+}
+
+// As reflectionAlbedo, of microfacets that are stretched along the tangent. `azimuth`: |cos| of that of the direction.
+vec2 stretchedAlbedo(float cosine, float azimuth, float roughness, float anisotropy) {
+    vec2 place = clamp(vec2(azimuth, anisotropy), vec2(0.0), vec2(1.0)) *
+                 vec2(float(kAlbedoAzimuthCells), float(kAlbedoAnisotropyCells));
+    vec2 cell = min(floor(place), vec2(float(kAlbedoAzimuthCells - 1u), float(kAlbedoAnisotropyCells - 1u)));
+    vec2 inCell = place - cell;
+    uint slice = kAlbedoStretchedCells * kAlbedoStretchedCells;
+    uint row = (kAlbedoAzimuthCells + 1u) * slice;
+    uint table = kAlbedoStretched + uint(cell.y) * row + uint(cell.x) * slice;
+    vec2 low = mix(albedoAt(table, kAlbedoStretchedCells, cosine, roughness),
+                   albedoAt(table + slice, kAlbedoStretchedCells, cosine, roughness), inCell.x);
+    vec2 high = mix(albedoAt(table + row, kAlbedoStretchedCells, cosine, roughness),
+                    albedoAt(table + row + slice, kAlbedoStretchedCells, cosine, roughness), inCell.x);
+    return mix(low, high, inCell.y);
+}
+vec2 stretchedMeanAlbedo(float roughness, float anisotropy) {
+    float place = clamp(anisotropy, 0.0, 1.0) * float(kAlbedoAnisotropyCells);
+    float cell = min(floor(place), float(kAlbedoAnisotropyCells - 1u));
+    uint table = kAlbedoStretchedMean + uint(cell) * kAlbedoStretchedCells;
+    return mix(meanAlbedoAt(table, kAlbedoStretchedCells, roughness),
+               meanAlbedoAt(table + kAlbedoStretchedCells, kAlbedoStretchedCells, roughness), place - cell);
+}
+
+// Reflection by a surface's microfacets. `w`: a direction in the frame of the shading normal, on either side.
+vec2 facetAlbedo(Bsdf bsdf, vec3 w) {
+    if (!kAnisotropic || bsdf.alpha.x <= bsdf.alpha.y) return reflectionAlbedo(abs(w.z), bsdf.roughness);
+    float azimuth = abs(w.x) / max(length(w.xy), 1e-6);
+    return stretchedAlbedo(abs(w.z), azimuth, bsdf.roughness, anisotropyOf(bsdf.alpha));
+}
+vec2 facetMeanAlbedo(Bsdf bsdf) {
+    if (!kAnisotropic || bsdf.alpha.x <= bsdf.alpha.y) return reflectionMeanAlbedo(bsdf.roughness);
+    return stretchedMeanAlbedo(bsdf.roughness, anisotropyOf(bsdf.alpha));
+}
 
 float sheenTableAlbedo(float cosine, float roughness) {
     return 2.0 * albedoAt(kAlbedoSheen, kAlbedoCells, cosine, roughness).x;

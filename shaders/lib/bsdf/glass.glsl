@@ -8,18 +8,20 @@
 #include "shaders/lib/bsdf/albedo.glsl"
 #include "shaders/lib/bsdf/microfacet.glsl"
 
-// What glass loses by single scattering: on the side of wo (x) and on the other side (y).
-vec2 glassLoss(Bsdf bsdf, float cosine) {
+// What glass loses by single scattering: on the side of wo (x) and on the other side (y). `w`: wo, or wi on either
+// side. There are no tables of stretched glass: that of the roughness across the tangent loses less in all directions,
+// so that stretched glass makes no light, but absorbs some.
+vec2 glassLoss(Bsdf bsdf, vec3 w) {
     if (isThin(bsdf)) {
-        vec2 single = reflectionAlbedo(cosine, bsdf.roughness);
+        vec2 single = facetAlbedo(bsdf, w);
         return vec2(1.0 - single.x - single.y);
     }
-    vec2 loss = 1.0 - glassTableAlbedo(cosine, bsdf.roughness, max(bsdf.eta, 1.0 / bsdf.eta));
+    vec2 loss = 1.0 - glassTableAlbedo(abs(w.z), bsdf.roughness, max(bsdf.eta, 1.0 / bsdf.eta));
     return bsdf.eta >= 1.0 ? loss : loss.yx;
 }
 vec2 glassMeanLoss(Bsdf bsdf) {
     if (isThin(bsdf)) {
-        vec2 single = reflectionMeanAlbedo(bsdf.roughness);
+        vec2 single = facetMeanAlbedo(bsdf);
         return vec2(max(1.0 - single.x - single.y, 1e-6));
     }
     vec2 loss = max(1.0 - glassMeanAlbedo(bsdf.roughness, max(bsdf.eta, 1.0 / bsdf.eta)), 1e-6);
