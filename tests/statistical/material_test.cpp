@@ -98,16 +98,22 @@ double meanVisible(const RadianceImage& image) {
     return sum / static_cast<double>(image.visible.size());
 }
 
-class WhiteFurnace : public testing::TestWithParam<MaterialCase> {};
-
-/// Radiance 1 everywhere, in front of and behind an object of any shape.
-TEST_P(WhiteFurnace, HidesWhatAbsorbsNothing) {
+/// Radiance 1 in both components from everywhere: a black box around the origin that emits inwards.
+SceneBuilder uniformLight(float halfSize) {
     SceneBuilder builder;
     Material wall;
     wall.name = "wall";
     wall.baseColor = glm::vec3(0.0f);
     wall.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
-    builder.box({-4, -4, -4}, {4, 4, 4}, Facing::kInward, builder.add(wall));
+    builder.box(glm::vec3(-halfSize), glm::vec3(halfSize), Facing::kInward, builder.add(wall));
+    return builder;
+}
+
+class WhiteFurnace : public testing::TestWithParam<MaterialCase> {};
+
+/// Radiance 1 everywhere, in front of and behind an object of any shape.
+TEST_P(WhiteFurnace, HidesWhatAbsorbsNothing) {
+    SceneBuilder builder = uniformLight(4.0f);
     const std::uint32_t object = builder.add(GetParam().material);
     builder.sphere({0, 0, 0}, 1.0f, 2, Facing::kOutward, object);
     LoadedScene& scene = builder.scene;
@@ -215,12 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Nightly, MaterialPair, testing::ValuesIn(nightlyCases(r
 /// A black sheet with a smooth clearcoat, of index 1.5, in uniform light: both sides reflect 4 % at normal
 /// incidence.
 TEST(Clearcoat, LiesOnBothSidesOfAnOpaqueSheet) {
-    SceneBuilder builder;
-    Material wall;
-    wall.name = "wall";
-    wall.baseColor = glm::vec3(0.0f);
-    wall.emission = {glm::vec3(1.0f), glm::vec3(1.0f), Sides::kFront};
-    builder.box({-9, -9, -9}, {9, 9, 9}, Facing::kInward, builder.add(wall));
+    SceneBuilder builder = uniformLight(9.0f);
     Material varnished = white();
     varnished.baseColor = glm::vec3(0.0f);
     varnished.clearcoat = 1.0f;
