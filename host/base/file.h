@@ -41,8 +41,8 @@ class FileWriter {
 /// anything throws. The old file's permissions are kept, and its owner if permitted. A write-protected file
 /// is not replaced. A symbolic link is followed and kept. Devices, pipes, and files that cannot be replaced
 /// (in a folder without permission, or a mount point) are written to directly, once `write` has filled a file
-/// in memory or the temporary file; pipes wait for a reader (see stream.h). Throws
-/// MachineError with `path`; duolux::Error exceptions of `write` pass through.
+/// in memory or the temporary file; pipes wait for a reader (see stream.h). Throws MachineError with `path`;
+/// duolux::Error exceptions of `write` pass through.
 void writeFileAtomically(const std::filesystem::path& path, const std::function<void(FileWriter&)>& write);
 
 /// Writes a whole file with writeFileAtomically.
