@@ -62,10 +62,17 @@ std::string describe(const Scene& scene, const DarkReason& reason) {
                 "no light reaches what the camera sees (material \"{}\"): other surfaces block the light of "
                 "the emitters; try --lamp, or {} {}",
                 reason.material, position, lookAt);
+        case Darkness::kMirrors:
+            return fmt::format(
+                "the surfaces in view (material \"{}\") are metal or glass, which shows only what it "
+                "reflects "
+                "or refracts, and that is dark; place emitters or bright surfaces around them",
+                reason.material);
         case Darkness::kUnknown:
             break;
     }
-    return "little light reaches what the camera sees; try --lamp, or more --spp";
+    return addedLamp(scene).is_null() ? "little light reaches what the camera sees; try --lamp, or more --spp"
+                                      : "little light reaches what the camera sees; try more --spp";
 }
 
 /// A histogram of the pixels' brightest channels, in half stops.

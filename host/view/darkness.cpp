@@ -19,6 +19,14 @@ bool any(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
 
+/// Metal or glass all over, which shows only what it reflects or refracts.
+bool hasNoDiffusePart(const Material& material) {
+    const bool varies =
+        hasTexture(material, MaterialInput::kMetallic) || hasTexture(material, MaterialInput::kTransmission);
+    return !varies && (material.metallic == 1.0f || material.transmission == 1.0f) &&
+           material.sheenColor == glm::vec3(0.0f);
+}
+
 /// Inspects the surfaces that the camera sees and the emitters of the scene.
 class Inspection {
   public:
@@ -134,7 +142,9 @@ class Inspection {
         constexpr float kMuchMore = 20.0f;
         if (turned > kMuchMore * here && turned >= there) return Darkness::kFacingAway;
         if (there > kMuchMore * here) return Darkness::kBehind;
-        return here > 0.0f ? Darkness::kUnknown : Darkness::kEnclosed;
+        if (!(here > 0.0f)) return Darkness::kEnclosed;
+        const auto mirror = [&](const SurfacePoint& point) { return hasNoDiffusePart(materialOf(point)); };
+        return nearlyAll(mirror) ? Darkness::kMirrors : Darkness::kUnknown;
     }
 
     const Scene& scene_;

@@ -18,6 +18,7 @@ enum class Darkness : std::uint8_t {
     kBehind,          ///< it is behind or inside surfaces whose other sides are lit
     kFacingAway,      ///< the front sides of the emitters face away
     kEnclosed,        ///< other surfaces block the light of the emitters
+    kMirrors,         ///< the surfaces that it sees only reflect or refract, without a diffuse part
     kUnknown          ///< none of these: light arrives
 };
 

@@ -83,6 +83,10 @@ TEST_F(ViewCommand, DarkPicturesNameTheirCause) {
                              "--look-at", "1.6,0,0", "--vfov", "2"})
                     .err,
                 HasSubstr("try more --bounces"));
+    std::ofstream(folder_.path() / "mirror.mtl") << "newmtl mirror\nPm 1\nPr 0\nKd 1 1 1\n";
+    EXPECT_THAT(
+        render("mtllib mirror.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nusemtl mirror\nf 1 4 3 2\n", {}).err,
+        testing::AllOf(HasSubstr("material \"mirror\") are metal or glass"), Not(HasSubstr("--lamp"))));
     const ProgramResult dark = render(kFloor, {"--no-lamp"});
     EXPECT_EQ(dark.err, "duolux: warning: nothing emits light: the picture will be black\n");
 }
