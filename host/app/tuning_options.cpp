@@ -19,7 +19,8 @@ void addTuningOptions(CLI::App& command, TuningOptions& options) {
     command
         .add_option("--kernel", options.kernel,
                     "What lanes do whose rays are finished: take new ones (refilling, the default) or wait "
-                    "for the others (plain; always with ray queries)")
+                    "for the others (plain; always with ray queries, and on CPUs where surfaces are not only "
+                    "diffuse)")
         ->type_name("NAME")
         ->check(oneOf(namesOfAll<KernelKind>()));
 }
