@@ -9,6 +9,7 @@
 #include "host/device_scene/surface_planes.h"
 #include "host/scene/scene.h"
 #include "shaders/shared/bvh_layout.h"
+#include "shaders/shared/path_tracer_layout.h"
 
 namespace duolux {
 

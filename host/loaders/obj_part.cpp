@@ -12,6 +12,7 @@
 #include "host/loaders/obj_complaints.h"
 #include "host/loaders/obj_face.h"
 #include "host/loaders/obj_tokens.h"
+#include "host/scene/scene.h"
 
 namespace duolux {
 
