@@ -10,6 +10,7 @@
 #include "host/base/text.h"
 #include "host/loaders/gltf.h"
 #include "host/loaders/json_scene.h"
+#include "host/loaders/ignored_specular.h"
 #include "host/loaders/missing_uvs.h"
 #include "host/loaders/obj.h"
 #include "host/loaders/ply.h"
@@ -98,6 +99,7 @@ SceneFile readSceneFile(const fs::path& path, Reading reading) {
     requireScenePath(path);
     SceneFile file = isMeshPath(path) ? readMeshScene(path, reading) : readJsonScene(path, reading);
     warnOfMissingUvs(file.scene);
+    warnOfIgnoredSpecular(file.scene);
     return file;
 }
 

@@ -238,5 +238,17 @@ TEST_F(JsonImagesTest, NeedTextureCoordinates) {
     EXPECT_THAT(white("").warnings, IsEmpty());
 }
 
+TEST_F(JsonImagesTest, SpecularHasNoEffectOnGlass) {
+    const auto warnings = [&](const std::string& keys) { return textsOf(white(keys).warnings); };
+    const auto isWarned = ElementsAre(HasSubstr(
+        "material \"white\": specular and specular_color have no effect where light is transmitted"));
+    EXPECT_THAT(warnings(R"("transmission": 0.5, "specular": 0.5)"), isWarned);
+    EXPECT_THAT(warnings(R"("transmission": 1, "specular_color": [1, 0.5, 1])"), isWarned);
+    EXPECT_THAT(warnings(R"("transmission": 1, "specular": {"image": "wood.png"})"), isWarned);
+    EXPECT_THAT(warnings(R"("transmission": 1)"), IsEmpty());
+    EXPECT_THAT(warnings(R"("transmission": 1, "specular": 0.5, "metallic": 1)"), IsEmpty());
+    EXPECT_THAT(warnings(R"("specular": 0.5, "specular_color": [1, 0.5, 1])"), IsEmpty());
+}
+
 }  // namespace
 }  // namespace duolux::test
