@@ -23,6 +23,11 @@ struct MaterialEnergy {
     bool grows() const;
 };
 
+/// The fraction of uniform light that f_opaque scatters to either side, per channel, without images and
+/// without what glass absorbs inside. Exact for surfaces that scatter all or nothing; of others approximate,
+/// by the means over the hemisphere of smooth layers' reflectances.
+glm::vec3 meanAlbedo(const Material& material);
+
 /// `albedo`: meanAlbedo(material), which colours of vertices and images can only make smaller.
 MaterialEnergy materialEnergy(const Reflectance& reflectance, const glm::vec3& albedo);
 

@@ -169,12 +169,4 @@ void forEachField(const Material& material, Visit&& visit) {
     visit("textures", textures);
 }
 
-/// The fraction of uniform light that f_opaque returns, per channel: for metals the mean of Schlick's Fresnel
-/// reflectance, b + (1 - b) / 21.
-inline glm::vec3 meanAlbedo(const Material& material) {
-    const glm::vec3 metal = material.baseColor + (1.0f - material.baseColor) / 21.0f;
-    return material.metallic > 0.0f ? glm::mix(material.baseColor, metal, material.metallic)
-                                    : material.baseColor;
-}
-
 }  // namespace duolux

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "host/base/random.h"
+#include "host/scene/energy.h"
 
 namespace duolux {
 

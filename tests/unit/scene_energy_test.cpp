@@ -113,6 +113,46 @@ TEST(Emitters, AreTrianglesThenPoints) {
     EXPECT_FALSE(anyEmitter(scene));
 }
 
+template <typename Change>
+glm::vec3 albedoOf(float base, const Change& change) {
+    Material material;
+    material.baseColor = glm::vec3(base);
+    change(material);
+    return meanAlbedo(material);
+}
+
+TEST(Energy, WhatAbsorbsNothingIsExactlyWhite) {
+    const auto expectWhite = [](const char* name, auto&& change) {
+        EXPECT_EQ(albedoOf(1.0f, change), glm::vec3(1.0f)) << name;
+    };
+    for (const float part : {0.1f, 0.3f, 0.7f, 1.0f}) {
+        expectWhite("metal", [&](Material& m) { m.metallic = part; });
+        expectWhite("dielectric", [&](Material& m) { m.specular = part; });
+        expectWhite("glass", [&](Material& m) { m.specular = 1.0f, m.transmission = part; });
+        expectWhite("clearcoat", [&](Material& m) { m.clearcoat = part; });
+        expectWhite("sheen", [&](Material& m) { m.sheenColor = glm::vec3(part), m.sheenRoughness = part; });
+    }
+}
+
+TEST(Energy, LayersAndReflectionsOnBlackScatter) {
+    // Means over the hemisphere of Schlick's reflectance: f0 + (1 - f0) / 21.
+    const float varnish = 0.04f + 0.96f / 21.0f;
+    EXPECT_FLOAT_EQ(albedoOf(0.0f, [](Material& m) { m.specular = 1.0f; }).y, varnish);
+    EXPECT_FLOAT_EQ(albedoOf(0.0f, [](Material& m) { m.clearcoat = 0.5f; }).y, 0.5f * varnish);
+    EXPECT_FLOAT_EQ(albedoOf(0.0f, [](Material& m) { m.transmission = 1.0f, m.ior = 3.0f; }).y,
+                    0.25f + 0.75f / 21.0f);
+    EXPECT_FLOAT_EQ(albedoOf(0.0f, [](Material& m) { m.metallic = 1.0f; }).y, 1.0f / 21.0f);
+    // By quadrature of the sheen's albedo, at most 1 in any direction.
+    for (const auto& [roughness, mean] : {std::pair(0.1f, 0.0451f), {0.5f, 0.1427f}, {1.0f, 0.2997f}}) {
+        EXPECT_NEAR(
+            albedoOf(0.0f, [&](Material& m) { m.sheenColor.y = 1.0f, m.sheenRoughness = roughness; }).y, mean,
+            0.003f);
+    }
+    // Sheen of one channel takes from all.
+    EXPECT_LT(albedoOf(1.0f, [](Material& m) { m.sheenColor.y = m.sheenRoughness = 1.0f; }).x, 0.75f);
+    EXPECT_EQ(albedoOf(0.0f, [](Material&) {}), glm::vec3(0.0f));
+}
+
 TEST(Energy, MeanAlbedoIsByArea) {
     const glm::dvec3 albedo = meanAlbedo(twoAreas());
     EXPECT_NEAR(albedo.x, 0.4 * 2 / 8, 1e-6);
