@@ -7,7 +7,7 @@
 #include "host/app/film_images.h"
 #include "host/base/printable.h"
 #include "host/device_scene/emitter_table.h"
-#include "host/device_scene/transport.h"
+#include "host/device_scene/smoothness.h"
 #include "host/scene/emitters.h"
 #include "shaders/shared/material_layout.h"
 
@@ -82,14 +82,25 @@ std::string dimEmitterWarning(const Scene& scene, std::uint64_t lightPaths) {
 
 void warnOfSmoothSurfaces(LoadedScene& scene) {
     const std::vector<bool> used = usedMaterials(scene);
+    std::vector<std::string> everywhere, somewhere;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (!used[i] || !isSpecular(scene.materials[i])) continue;
-        scene.warnings.emplace_back(fmt::format(
-            "{}: material {}: light paths do not show what a smooth surface reflects or refracts; expected a "
-            "roughness of at least {:.3f}, or --integrator path",
-            scene.source.string(), inQuotes(scene.materials[i].name), std::sqrt(shared::kSmoothAlpha)));
-        return;
+        if (!used[i]) continue;
+        const Smoothness smoothness = smoothnessOf(scene, scene.materials[i]);
+        if (smoothness == Smoothness::kNowhere) continue;
+        (smoothness == Smoothness::kEverywhere ? everywhere : somewhere)
+            .push_back(inQuotes(scene.materials[i].name));
     }
+    const auto warn = [&](const std::vector<std::string>& names, std::string_view which) {
+        if (names.empty()) return;
+        scene.warnings.emplace_back(
+            fmt::format("{}: material{} {}: light paths do not show what a smooth surface reflects or "
+                        "refracts{}; expected a "
+                        "roughness of at least {:.3f}, or --integrator path",
+                        scene.source.string(), names.size() > 1 ? "s" : "", fmt::join(names, ", "), which,
+                        std::sqrt(shared::kSmoothAlpha)));
+    };
+    warn(everywhere, "");
+    warn(somewhere, ", and some pixels of an image make it smooth");
 }
 
 }  // namespace duolux

@@ -56,14 +56,6 @@ std::uint32_t lobesOf(const Material& material) {
     return lobes;
 }
 
-bool isSpecular(const Material& material) {
-    const std::uint32_t lobes = lobesOf(material);
-    const auto isSmooth = [](float roughness) { return roughness * roughness < shared::kSmoothAlpha; };
-    const std::uint32_t facets = shared::kLobeMetal | shared::kLobeDielectric | shared::kLobeGlass;
-    return ((lobes & facets) != 0 && isSmooth(material.roughness)) ||
-           ((lobes & shared::kLobeClearcoat) != 0 && isSmooth(material.clearcoatRoughness));
-}
-
 TransportTraits analyseTransport(const Scene& scene) {
     const std::vector<bool> used = usedMaterials(scene);
     TransportTraits traits;

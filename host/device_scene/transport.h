@@ -41,10 +41,6 @@ bool isPartial(const Scene& scene, const Material& material);
 /// Sum of shared::kLobe...
 std::uint32_t lobesOf(const Material& material);
 
-/// Whether a part of the surface is smooth: it reflects (or refracts) each direction into one other. The
-/// light tracer cannot connect it to the camera.
-bool isSpecular(const Material& material);
-
 /// The largest emitted radiance over all emitters of a scene with this geometry, channels and components; of
 /// point emitters the irradiance at a distance of the scene's extent. 0 if nothing emits.
 double brightestEmission(const Geometry& geometry, std::span<const SceneEmitter> emitters);

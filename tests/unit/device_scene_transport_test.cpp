@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "host/device_scene/smoothness.h"
 #include "host/device_scene/transport.h"
 
 namespace duolux {
@@ -153,6 +154,54 @@ TEST(Transport, BrightestEmissionIsOfWhatIsThere) {
     EXPECT_EQ(brightestEmission(scene.geometry, listEmitters(scene)), 9.0);
     scene.materials[0].emission = scene.materials[1].emission = {};
     EXPECT_EQ(brightestEmission(scene.geometry, listEmitters(scene)), 0.0);
+}
+
+/// A metal with an image of 2 x 1 pixels of these values in green, which scales the input.
+Smoothness smoothnessWith(float roughness, float anisotropy, MaterialInput input, std::uint8_t first,
+                          std::uint8_t second) {
+    Scene scene = sceneWith(*presetReflectance("global"));
+    auto image = std::make_shared<Image>();
+    image->width = 2;
+    image->height = 1;
+    image->bytes = {0, first, first, 0, 0, second, second, 0};
+    scene.images = {image};
+    Material& metal = scene.materials[0];
+    metal.metallic = 1.0f;
+    metal.roughness = roughness;
+    metal.anisotropy = anisotropy;
+    metal.textures = {{input, {}, 1}};
+    return smoothnessOf(scene, metal);
+}
+
+TEST(Smoothness, OfMaterialsWithoutImages) {
+    const Scene scene = sceneWith(*presetReflectance("global"));
+    Material material;
+    material.roughness = 0.01f;
+    EXPECT_EQ(smoothnessOf(scene, material), Smoothness::kNowhere) << "diffuse";
+    material.specular = 0.5f;
+    EXPECT_EQ(smoothnessOf(scene, material), Smoothness::kEverywhere);
+    material.anisotropy = 0.5f;
+    EXPECT_EQ(smoothnessOf(scene, material), Smoothness::kNowhere) << "stretched to alpha 0.25";
+    material.clearcoat = 0.1f;
+    EXPECT_EQ(smoothnessOf(scene, material), Smoothness::kEverywhere);
+    material.clearcoatRoughness = 0.2f;
+    EXPECT_EQ(smoothnessOf(scene, material), Smoothness::kNowhere);
+}
+
+// Roughness is smooth below the root of kSmoothAlpha, 0.0316, or 8.06 / 255.
+TEST(Smoothness, IsThatOfTheSmallestPixel) {
+    const auto rough = [](float roughness, std::uint8_t first, std::uint8_t second) {
+        return smoothnessWith(roughness, 0.0f, MaterialInput::kRoughness, first, second);
+    };
+    EXPECT_EQ(rough(1.0f, 9, 255), Smoothness::kNowhere);
+    EXPECT_EQ(rough(1.0f, 255, 8), Smoothness::kWhereImagesSaySo);
+    EXPECT_EQ(rough(0.5f, 15, 255), Smoothness::kWhereImagesSaySo);
+    EXPECT_EQ(rough(0.01f, 255, 255), Smoothness::kEverywhere);
+    const auto stretched = [](std::uint8_t first, std::uint8_t second) {
+        return smoothnessWith(0.01f, 1.0f, MaterialInput::kAnisotropy, first, second);
+    };
+    EXPECT_EQ(stretched(255, 200), Smoothness::kNowhere);
+    EXPECT_EQ(stretched(255, 0), Smoothness::kWhereImagesSaySo);
 }
 
 }  // namespace
