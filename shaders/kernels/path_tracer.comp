@@ -47,6 +47,9 @@ void endSegment(inout Path path, inout Vertex vertex) {
     path.ended = !(s.pdf > 0.0);
 }
 
+// Whether the layer of normals still waits for the first surface of which something is there.
+bool showsNormal(Path path) { return kLayerNormal && path.scatterings == 0u && layers.normal == vec3(0.0); }
+
 // The path has met a surface: emission, direct light, a candidate for scattering, and the crossing.
 void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inout SampleRadiance received,
                  Traversal ray, Triangle tri, SurfaceHit hit) {
@@ -54,7 +57,7 @@ void meetSurface(inout Path path, inout Vertex vertex, inout Shadow shadow, inou
     ReflectanceMatrix w = onSegment;
     if (kCoverage || kAttenuates) w = scaled(w, hit.unabsorbed * hit.coverage);
     vec3 wo = -path.segment.direction;
-    if (kLayerNormal && onCameraSegment(path)) layers.normal = hit.point.shadingNormal;
+    if (showsNormal(path) && hit.coverage > 0.0) layers.normal = hit.point.shadingNormal;
     if (kEmittingTriangles) collectEmission(received, path, hit, w, ray.t, tri.primitive);
 
     ReflectanceMatrix scattered = multiply(w, opaqueOf(hit.materialIndex));
@@ -144,7 +147,7 @@ void main() {
                     endSegment(path, vertex);
                 }
 
-                bool emissionOnly = onlyEmissionLeft(path) && !onCameraSegment(path);
+                bool emissionOnly = onlyEmissionLeft(path) && !onCameraSegment(path) && !showsNormal(path);
                 if (kTransparency == kTransparencyIdentity) {
                     // Most rays that only look for emitters, and that nothing stops, pass far from all of them.
                     while (emissionOnly && passesAll(path) && !path.ended &&

@@ -14,7 +14,7 @@
 // `channels` are `count` letters, up to three. A sample's value is clamped to [lowest, largest] in every
 // channel.
 #define DUOLUX_FILM_LAYERS(LAYER)                                                                     \
-    /* shading normal of the first surface: unit, world space, on the camera's side; 0: no surface */ \
+    /* shading normal of the first surface that is there: unit, world space, on the camera's side; 0: none */ \
     LAYER(normal, Normal, 0u, XYZ, 3u, -1.0f, 1.0f)
 
 DUOLUX_BEGIN

@@ -193,6 +193,29 @@ TEST(NormalLayer, DependsOnNothingButGeometry) {
     }
 }
 
+/// Behind a sheet that is masked away, whatever light does there.
+TEST(NormalLayer, IsOfTheFirstSurfaceThatIsThere) {
+    SceneBuilder builder;
+    Material sheet, wall;
+    sheet.alpha = {AlphaMode::kMask, 0.25f, 0.5f};
+    wall.name = "wall";
+    const std::uint32_t masked = builder.add(sheet);
+    builder.quad({-4, -4, 1}, {4, -4, 2}, {4, 4, 2}, {-4, 4, 1}, masked);
+    builder.quad({-4, -4, 2}, {4, -4, 3}, {4, 4, 3}, {-4, 4, 2}, masked);
+    builder.quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}, builder.add(wall));
+    builder.scene.pointEmitters = {{{0, 0, 3}, glm::vec3(1.0f), glm::vec3(1.0f)}};
+    builder.scene.camera = {{0, 0, 8}, {0, 0, 0}, {0, 1, 0}, 30.0f};
+    for (const Preset& preset : presets()) {
+        for (const std::uint32_t bounces : {0u, 2u}) {
+            LoadedScene scene = withNormals(builder.scene, 4, 4, 4);
+            scene.reflectance = blendReflectance(preset.t, preset.o);
+            scene.settings.bounces = bounces;
+            for (const Vec3& normal : normalsOf(render(device(), scene).film))
+                EXPECT_LT(glm::length(normal - Vec3(0, 0, 1)), 1e-6) << preset.name << bounces;
+        }
+    }
+}
+
 TEST(NormalLayer, LeavesRadianceAsItIs) {
     LoadedScene scene = withNormals(mixedCornellBox(), 19, 13, 7);
     const Film with = render(device(), scene).film;
