@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kAnything = std::numeric_limits<double>::max();
 constexpr double kLargestFactor = 1e6;
+constexpr float kDefaultReflectance = 0.04f;  // at normal incidence, of an index of refraction of 1.5
 
 /// The channels of an image.
 constexpr std::uint32_t kRed = 0, kGreen = 1, kBlue = 2, kAlphaChannel = 3;
@@ -118,7 +119,6 @@ class GltfMaterialReader {
     /// An archived extension: a dielectric whose reflectance at normal incidence is a colour, which this
     /// model states relative to that of its index of refraction.
     void readSpecularGlossiness(const JsonNode& node) {
-        constexpr float kReflectance = 0.04f;  // of an index of 1.5
         readBaseColor(node, "diffuseFactor", "diffuseTexture");
         glm::vec3 reflectance(1.0f);
         colour(node, "specularFactor", 1.0, reflectance);
@@ -126,7 +126,7 @@ class GltfMaterialReader {
         fraction(node, "glossinessFactor", glossiness);
         material_.metallic = 0.0f;
         material_.roughness = 1.0f - glossiness;
-        material_.specularColor = reflectance / kReflectance;
+        material_.specularColor = reflectance / kDefaultReflectance;
         colourTexture(node, "specularGlossinessTexture", MaterialInput::kSpecularColor);
         if (!node.find("specularGlossinessTexture")) return;
         texture(node, "specularGlossinessTexture", MaterialInput::kRoughness, kRed, ColourSpace::kLinear,
@@ -164,8 +164,12 @@ class GltfMaterialReader {
     }
 
     void readDielectric() {
+        bool reflectsAll = false;
         if (const auto extension = extensionOf(node_, "KHR_materials_ior")) {
-            if (const auto ior = extension->find("ior")) {
+            const auto ior = extension->find("ior");
+            // An index of 0 stands for a reflectance of 1, that specularColor alone scales.
+            reflectsAll = ior && ior->number(-kAnything, kAnything, "expected an index of refraction") == 0.0;
+            if (ior && !reflectsAll) {
                 material_.ior = static_cast<float>(clamped(
                     *ior, 1.0, static_cast<double>(Material::kLargestIor),
                     fmt::format("expected an index of refraction from 1 to {}", Material::kLargestIor)));
@@ -177,6 +181,7 @@ class GltfMaterialReader {
             texture(*specular, "specularTexture", MaterialInput::kSpecular, kAlphaChannel);
             colourTexture(*specular, "specularColorTexture", MaterialInput::kSpecularColor);
         }
+        if (reflectsAll) material_.specularColor /= kDefaultReflectance;
     }
 
     void readVolume() {

@@ -97,6 +97,11 @@ TEST_F(GltfMaterialTest, ExtensionsAreRead) {
     };
     EXPECT_EQ(materialOf(extensions("KHR_materials_ior", {{"ior", 1.25}})),
               with([](Material& m) { m.ior = 1.25; }));
+    // A reflectance of 1 at normal incidence, which the colour scales.
+    json mirror = extensions("KHR_materials_ior", {{"ior", 0}});
+    EXPECT_EQ(materialOf(mirror), with([](Material& m) { m.specularColor = V(1) / 0.04f; }));
+    mirror["extensions"]["KHR_materials_specular"] = {{"specularColorFactor", {1, 0.5, 0.25}}};
+    EXPECT_EQ(materialOf(mirror), with([](Material& m) { m.specularColor = V(1, 0.5, 0.25) / 0.04f; }));
     EXPECT_EQ(materialOf(extensions("KHR_materials_specular",
                                     {{"specularFactor", 0.5}, {"specularColorFactor", {2, 0.5, 0}}})),
               with([](Material& m) { m.specular = 0.5, m.specularColor = V(2, 0.5, 0); }));
