@@ -185,7 +185,8 @@ Strategies bsdfStrategies(Bsdf bsdf, vec3 local, float toCoat, uint mode) {
     float rest = s.sheen + s.facets + s.clearcoat + s.through;
     float sum = s.cosine + rest;
     // Below the shading normal's horizon, only cosine sampling generates directions.
-    float least = mode == kModeImportance && !smoothFacets ? 0.25 : 0.0;
+    bool roughCoat = coat > 0.0 && !isSmoothClearcoat(bsdf);
+    float least = mode == kModeImportance && (!smoothFacets || roughCoat || sheen > 0.0) ? 0.25 : 0.0;
     if (s.cosine < least * sum) {
         float scale = (1.0 - least) * sum / rest;
         s.sheen *= scale;
@@ -307,9 +308,13 @@ BsdfSample bsdfSample(Bsdf bsdf, BsdfFrame frame, vec3 wo, float choice, vec2 u,
             if (deltaCoat) {
                 weight = vec3(clearcoatReflectance(bsdf, bentCoat ? i.z : o.z));
                 if (bentCoat && dot(frame.coat, incident) <= 0.0) weight = vec3(0.0);
-                if (kSheen) weight *= 1.0 - sheenAlbedo(bsdf, o.z);
+                if (kSheen) {
+                    vec3 inFrame = bentCoat ? aboveHorizon(toShadingFrame(frame, s.wi)) : i;
+                    weight *= 1.0 - sheenAlbedo(bsdf, viewOf(o, inFrame, mode).z);
+                }
             }
-            s.weight = weight * (ratio / probability);
+            // Rounding may choose a lobe that scatters nothing.
+            s.weight = probability > 0.0 ? weight * (ratio / probability) : vec3(0.0);
             s.pdf = kDeltaPdf;
         } else {
             vec3 inFrame = toShadingFrame(frame, s.wi);

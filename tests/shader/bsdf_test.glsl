@@ -185,6 +185,43 @@ TEST(MirrorReflects) {
     EXPECT_EQ(bsdfEvaluate(mirror(), frame, wo, s.wi, mode), vec3(0.0));
 }
 
+// The same of a mirror under a rough varnish or sheen.
+TEST(DensityIsPositiveWhereLayersOnAMirrorScatter) {
+    Bsdf bsdf = mirror();
+    bool coated = testIndex() % 2u == 0u;
+    bsdf.clearcoat = coated ? 1.0 : 0.0;
+    bsdf.clearcoatRoughness = randomFloat(0.2, 1.0);
+    bsdf.sheenColor = vec3(coated ? 0.0 : 0.5);
+    bsdf.sheenRoughness = randomFloat(0.2, 1.0);
+    BsdfFrame frame = smoothFrame();
+    vec3 wo = above(frame.geometric);
+    vec3 wi = above(frame.geometric);
+    uint mode = randomMode();
+    vec3 f = bsdfEvaluate(bsdf, frame, wo, wi, mode);
+    EXPECT_TRUE(maxComponent(f) == 0.0 || bsdfPdf(bsdf, frame, wo, wi, mode) > 0.0);
+}
+
+// The largest number that may choose a lobe, where rounding may leave no other than one that scatters nothing.
+TEST(LargestChoiceMakesNoInfiniteWeight) {
+    Bsdf bsdf = diffuseBsdf(randomVec3(0.0, 1.0));
+    bsdf.alpha = vec2(0.0);
+    bsdf.roughness = 0.0;
+    bsdf.specular = testIndex() % 2u == 0u ? 0.0 : 1e-7;
+    bsdf.sheenColor = vec3(testIndex() % 3u == 0u ? 0.3 : 0.0);
+    bsdf.sheenRoughness = 0.5;
+    BsdfFrame frame = flatFrame();
+    BsdfSample s = bsdfSample(bsdf, frame, above(frame.geometric), 0.99999994, randomVec2(), randomMode());
+    EXPECT_TRUE(!isnan(s.weight.x) && s.weight.x < 10.0);
+}
+
+// Colours above 1 are scattered several times like white.
+TEST(SeveralScatteringsReturnAtMostAll) {
+    vec3 f0 = randomVec3(0.0, 30.0);
+    vec3 several = severalAlbedo(f0, 1.0, randomFloat(0.0, 0.99));
+    EXPECT_GE(several, vec3(0.0));
+    EXPECT_LE(several, vec3(1.0 + 1e-5));
+}
+
 Bsdf smoothGlass(float eta) {
     Bsdf bsdf = mirror();
     bsdf.baseColor = vec3(0.5);

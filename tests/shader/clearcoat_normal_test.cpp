@@ -122,5 +122,37 @@ TEST(ClearcoatNormal, BentClearcoatsAreSampledAsTheyReflect) {
         ASSERT_NEAR(forward[i].x, backward[i].x, 1e-4f * forward[i].x + 1e-6f) << i;
 }
 
+/// Sheen on a smooth bent varnish takes the same from light in both modes: the flux that a mirror sends from
+/// a direction to another is, but for the cosines, that of the way back.
+TEST(ClearcoatNormal, SheenLiesOnASmoothBentClearcoat) {
+    const BsdfFrame frame = coatedFrame({0.45f, 0.1f, 1.0f});
+    const glm::vec3 wo = glm::normalize(glm::vec3(-0.3f, 0.1f, 0.95f));
+    const Bsdf bare = clearcoat(whiteDiffuse(), 1.0f, 0.0f);
+    const Bsdf b = sheen(bare, 0.9f, 1.0f);
+    // The weight of the mirror times the probability of its choice, and the direction.
+    const auto reflected = [&](const Bsdf& surface, const glm::vec3& from, std::uint32_t mode) {
+        const std::vector<glm::vec2> us(1 << 16);
+        std::vector<float> choices;
+        for (std::size_t i = 0; i < us.size(); ++i)
+            choices.push_back((static_cast<float>(i) + 0.5f) / static_cast<float>(us.size()));
+        BsdfSample kept{};
+        double sum = 0.0;
+        for (const BsdfSample& s :
+             bentCoats().call<BsdfSample>("bsdfSample", surface, frame, from, choices, us, mode)) {
+            if (s.pdf < 1e29f) continue;
+            kept = s;
+            sum += static_cast<double>(s.weight.x);
+        }
+        return std::pair(sum / static_cast<double>(us.size()), kept.wi);
+    };
+    const auto [forward, wi] = reflected(b, wo, kRadiance);
+    const auto [backward, back] = reflected(b, wi, kImportance);
+    ASSERT_LT(glm::length(back - wo), 1e-4f);
+    const auto [bareForward, bareWi] = reflected(bare, wo, kRadiance);
+    const auto [bareBackward, bareBack] = reflected(bare, wi, kImportance);
+    EXPECT_NEAR(forward / bareForward, backward / bareBackward, 0.02);
+    EXPECT_LT(forward / bareForward, 0.9);
+}
+
 }  // namespace
 }  // namespace duolux::test

@@ -114,9 +114,9 @@ struct Loss {
 float severalEvaluate(Loss loss) { return loss.wo * loss.wi / (kPi * max(loss.mean, 1e-6)); }
 
 // The fraction of the lost light that further reflections with Schlick's Fresnel reflectance return (its mean over the
-// hemisphere is f0 + (f90 - f0) / 21).
+// hemisphere is f0 + (f90 - f0) / 21). No more than all of it, although colours may be above 1.
 vec3 severalAlbedo(vec3 f0, float f90, float meanLoss) {
-    vec3 fresnel = f0 + (f90 - f0) * (1.0 / 21.0);
+    vec3 fresnel = min(f0 + (f90 - f0) * (1.0 / 21.0), vec3(1.0));
     return fresnel * fresnel * (1.0 - meanLoss) / (1.0 - fresnel * meanLoss);
 }
 
