@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "host/device_scene/smoothness.h"
 #include "host/device_scene/transport.h"
 

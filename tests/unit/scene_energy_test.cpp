@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 #include <vector>
 
 #include "host/scene/emitters.h"
