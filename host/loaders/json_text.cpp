@@ -121,9 +121,9 @@ json parseJsonFile(const std::filesystem::path& path) {
 }
 
 json parseJson(const std::filesystem::path& path, std::string_view text, std::string_view expected) {
+    const std::string remedy = fmt::format("expected {}", expected);
     if (text.empty()) {  // the library's message depends on its version
-        throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty",
-                         "expected JSON");
+        throw InputError(path.string(), "line 1, column 1", "syntax error: the file is empty", remedy);
     }
     expectNoForeignFormat(path, text, expected);
     try {
@@ -132,9 +132,9 @@ json parseJson(const std::filesystem::path& path, std::string_view text, std::st
         return json::parse(text);
     } catch (const json::parse_error& e) {
         const std::size_t offset = e.byte == 0 ? 0 : e.byte - 1;
-        throw InputError(path.string(), placeOf(text, offset), explanation(e.what()), "expected JSON");
+        throw InputError(path.string(), placeOf(text, offset), explanation(e.what()), remedy);
     } catch (const json::exception& e) {
-        throw InputError(path.string(), "", explanation(e.what()), "expected JSON");
+        throw InputError(path.string(), "", explanation(e.what()), remedy);
     }
 }
 

@@ -30,6 +30,8 @@ MalformedScene gltf(const char* name, const std::string& from, const std::string
 std::vector<MalformedScene> malformedGltfs() {
     return {
         gltf("CutOff", "\"}]}", "", {"mesh.gltf: line 6, column ", "JSON"}),
+        gltf("NotJson", "{", "mtllib a.mtl {",
+             {"mesh.gltf: line 1, column 1", "expected glTF JSON or binary glTF"}),
         gltf("OldVersion", "2.0", "1.0", {"mesh.gltf: asset.version: ", "\"1.0\"", "\"2.0\""}),
         gltf("UnknownExtension", "\"nodes\"", "\"extensionsRequired\": [\"ACME_x\"], \"nodes\"",
              {"mesh.gltf: extensionsRequired[0]: ", "\"ACME_x\"", "not supported"}),
