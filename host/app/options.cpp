@@ -78,9 +78,9 @@ std::vector<std::string> argumentsOf(int argc, const char* const* argv) {
 
 void addStrictOption(CLI::App& command, bool& strict) {
     command.add_flag("--strict", strict,
-                     "Refuse scene files with errors that are otherwise warnings: invalid numbers, normals, "
-                     "corners, faces and counts of meshes, values of MTL files out of range, missing or "
-                     "unreadable MTL files and images, materials undefined or defined twice");
+                     "Refuse scene files with errors that otherwise only cause warnings: invalid numbers, "
+                     "normals, corners, faces and counts in meshes; invalid values in MTL files; missing "
+                     "or unreadable MTL files and images; materials that are undefined or defined twice");
 }
 
 }  // namespace duolux

@@ -59,7 +59,7 @@ void addSheetCommand(CLI::App& app) {
         ->required()
         ->type_name("FILE");
     command->add_option("--columns", options->columns, "Images in a row")
-        ->check(CLI::Range(1, 1000))
+        ->check(wholeNumber(1, 1000))
         ->capture_default_str()
         ->type_name("N");
     addRepeatable(*command, "--label", options->labels,

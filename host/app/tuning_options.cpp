@@ -18,8 +18,8 @@ void addTuningOptions(CLI::App& command, TuningOptions& options) {
         ->check(oneOf(namesOfAll<Layout>()));
     command
         .add_option("--kernel", options.kernel,
-                    "What lanes do whose rays are finished: take new ones (refilling, the default) or wait "
-                    "for the others (plain; always with ray queries, and on CPUs where surfaces are not only "
+                    "Lanes whose rays are finished take new ones (refilling, the default) or wait for the "
+                    "others (plain; always with ray queries, and on CPUs where surfaces are not only "
                     "diffuse)")
         ->type_name("NAME")
         ->check(oneOf(namesOfAll<KernelKind>()));
