@@ -116,7 +116,7 @@ void resumeFrom(const Checkpoint& resumed, const RenderOptions& options, const L
     if (resumed.origin.samples.begin != samples.begin) {
         throw InputError(
             options.resume, "first sample",
-            fmt::format("is {}, but {} of this render", resumed.origin.samples.begin, samples.begin),
+            fmt::format("is {}, but {} in this render", resumed.origin.samples.begin, samples.begin),
             "expected a --sample-range with the same first sample");
     }
     // By default, direct light is computed as in the checkpoint.

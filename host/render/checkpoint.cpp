@@ -279,7 +279,7 @@ void requireSameOrigin(const std::filesystem::path& file, const FilmOrigin& orig
     for (std::size_t i = 0; i < here.size(); ++i) {
         if (here[i] == there[i]) continue;
         throw InputError(file.string(), here[i].first,
-                         fmt::format("is {}, but {} of {}", here[i].second, there[i].second, wantedFrom),
+                         fmt::format("is {}, but {} in {}", here[i].second, there[i].second, wantedFrom),
                          "expected the same scene and settings");
     }
 }

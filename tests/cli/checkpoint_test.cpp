@@ -120,11 +120,11 @@ TEST_P(CheckpointCommands, ACheckpointOfSomethingElseIsRefusedAndKept) {
         EXPECT_EQ(result.status, 3) << word;
         EXPECT_THAT(result.err, HasSubstr(std::string("state: ") + word));
     };
-    refused({"--seed", "9"}, "seed: is 1, but 9 of this render");
-    refused({"--bounces", "3"}, "bounces: is 16, but 3 of this render");
-    refused({"--preset", "local"}, "reflectance: is global, but local of this render");
-    refused({"--sampler", "independent"}, "sampler: is sobol, but independent of this render");
-    refused({"--sample-range", "1:2"}, "first sample: is 0, but 1 of this render");
+    refused({"--seed", "9"}, "seed: is 1, but 9 in this render");
+    refused({"--bounces", "3"}, "bounces: is 16, but 3 in this render");
+    refused({"--preset", "local"}, "reflectance: is global, but local in this render");
+    refused({"--sampler", "independent"}, "sampler: is sobol, but independent in this render");
+    refused({"--sample-range", "1:2"}, "first sample: is 0, but 1 in this render");
     EXPECT_EQ(bytes("state"), before);
     EXPECT_FALSE(exists("b.png"));
 }

@@ -89,13 +89,13 @@ TEST_F(Layers, PartsOfARenderGiveTheSameFile) {
 
     // Checkpoints with other layers are refused.
     expectRefused(render({"--resume", "0", "-o", "none.exr"}), 3,
-                  "0: layers: is normal, but none of this render");
+                  "0: layers: is normal, but none in this render");
     ASSERT_EQ(render({"--sample-range", "3:20", "--checkpoint", "plain", "-o", "part.png"}).status, 0);
     expectRefused(run({"merge", "-o", "none.exr", "0", "plain"}), 3,
-                  "plain: layers: is none, but normal of 0");
+                  "plain: layers: is none, but normal in 0");
     expectRefused(
         render({"--aov", "normal", "--sample-range", "3:20", "--resume", "plain", "-o", "none.exr"}), 3,
-        "plain: layers: is none, but normal of this render");
+        "plain: layers: is none, but normal in this render");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "none.exr"));
 }
 
