@@ -99,7 +99,7 @@ class Emitter {
         return std::move(out_);
     }
 
-    /// In the order in which a single emission of the whole tree would reach them.
+    /// In depth-first order of the whole tree.
     const std::vector<Branch>& branches() const { return branches_; }
 
   private:

@@ -60,7 +60,7 @@ class BinaryStl {
     }
 
   private:
-    /// As stated, or as many as there are if 0 are stated.
+    /// The count that the file states; if that is 0, the number of facets in the file.
     std::size_t facetCount() {
         if (bytes_.size() < kFirst) {
             throw InputError(path_.string(), "", fmt::format("is {} bytes", bytes_.size()),

@@ -47,7 +47,7 @@ Illumination::Illumination(const Surface& surface, std::optional<std::uint32_t> 
             case EmitterKind::kPoint:
                 if (material) continue;
                 emitter.position = surface.toLocal(glm::dvec3(surface.scene().pointEmitters[index].position));
-                // As radiance times twice an area in local units, of which the flux is pi / 2.
+                // In proportion to the flux; fromPoint() divides by the same factor.
                 power_ += 8.0 * static_cast<double>(radiance) * surface.scale() * surface.scale();
                 break;
         }

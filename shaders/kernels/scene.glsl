@@ -94,7 +94,7 @@ ReflectanceMatrix crossed(ReflectanceMatrix w, uint material, float coverage) {
     return multiply(w, transparentAt(material, coverage));
 }
 
-// Light behind a surface, where surfaces have this kTransparency...
+// Light behind a surface. `transparency`: a value of kTransparency.
 Radiance2 crossed(Radiance2 light, uint material, float coverage, uint transparency) {
     if (transparency == kTransparencyCoverage) return scaled(light, vec3(1.0 - coverage));
     return matrixApply(transparentAt(material, coverage), light);
