@@ -216,7 +216,8 @@ Mesh loadObj(const fs::path& path, MaterialFiles& files) {
     mesh.geometry = buildGeometry(std::move(file), starts);
     materials.moveTo(mesh);
     if (mesh.geometry.triangles.empty()) {
-        throw InputError(path.string(), "", "has no faces", "expected at least one \"f\" statement");
+        throw InputError(path.string(), "", "has no faces",
+                         "expected at least one \"f\" statement with 3 corners or more");
     }
     return mesh;
 }

@@ -68,7 +68,7 @@ std::vector<MalformedScene> malformedObjs() {
                    {"mesh.obj: line 4: ", "texture coordinate index 1"})),
         strict(obj("FaceOfTwo", kVertices + "f 1 2 3\nf 1 2\n",
                    {"mesh.obj: line 5: ", "2 corners", "at least 3"})),
-        obj("OnlyAFaceOfTwo", kVertices + "f 1 2\n", {"mesh.obj: ", "has no faces"}),
+        obj("OnlyAFaceOfTwo", kVertices + "f 1 2\n", {"mesh.obj: ", "has no faces", "3 corners or more"}),
         obj("UsedNanCoordinate", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
             {"mesh.obj: line 1: ", "\"nan\"", "finite"}),
         obj("GitLfsPointer", "version https://git-lfs.github.com/spec/v1\noid sha256:12\nsize 9\n",
