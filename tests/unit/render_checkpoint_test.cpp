@@ -199,7 +199,7 @@ TEST_F(CheckpointTest, AnotherOriginIsRefusedByName) {
         {"bounces", [](FilmOrigin& o) { o.settings.bounces = 13; }},
         {"seed", [](FilmOrigin& o) { o.settings.seed = 1; }},
         {"sampler", [](FilmOrigin& o) { o.settings.sampler = Sampler::kSobol; }},
-        {"layers: is normal, but none of", [](FilmOrigin& o) { o.settings.layers = kLayerNormal; }},
+        {"layers: is normal, but none in", [](FilmOrigin& o) { o.settings.layers = kLayerNormal; }},
         {"direct light", [](FilmOrigin& o) { o.directLight = DirectLight::kSampled; }}};
     for (const Change& change : changes) {
         FilmOrigin other = someOrigin();
